@@ -1,0 +1,1 @@
+//! What every groomkit program shares: exit codes, Ctrl-C, progress.

@@ -1,0 +1,1 @@
+//! Reads and writes the HAIR (cyHair) file format to the byte.

@@ -1,0 +1,1 @@
+//! Error figures against seconds: metrics, series, CSV, JSON and one HTML page.

@@ -1,0 +1,1 @@
+//! Groom files: one module and one feature per format, bytes to Groom and back.

@@ -1,0 +1,1 @@
+//! Procedural heads of hair: straight, wavy and curly.

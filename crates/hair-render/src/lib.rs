@@ -1,0 +1,1 @@
+//! A path tracer for hair: scene, cameras, lights, integrator, film, EXR.

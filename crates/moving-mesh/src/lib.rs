@@ -1,0 +1,1 @@
+//! Triangle meshes for grooms to grow on: OBJ and glTF.

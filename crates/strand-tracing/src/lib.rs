@@ -1,0 +1,1 @@
+//! Rays against round tapering strands and triangles.

@@ -1,0 +1,1 @@
+//! Scripted turntables from YAML: steps, staleness, frames, contact sheets.

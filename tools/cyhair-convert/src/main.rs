@@ -1,0 +1,3 @@
+//! Converts hair and fur grooms between formats.
+
+fn main() {}

@@ -1,0 +1,3 @@
+//! Makes straight, wavy and curly heads of hair.
+
+fn main() {}

@@ -1,0 +1,3 @@
+//! Path-traces a groom to a multi-layer EXR.
+
+fn main() {}

@@ -1,0 +1,3 @@
+//! Runs scripted turntables from YAML pipelines.
+
+fn main() {}

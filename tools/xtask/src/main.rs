@@ -1,0 +1,3 @@
+//! Sets up, tests and benchmarks groomkit.
+
+fn main() {}
