@@ -1,1 +1,19 @@
-//! What every groomkit program shares: exit codes, Ctrl-C, progress.
+//! What every groomkit program shares: exit codes, error words, Ctrl-C and progress bars.
+//!
+//! ```no_run
+//! use command_line::Outcome;
+//!
+//! fn main() -> std::process::ExitCode {
+//!     command_line::run(|| Ok(Outcome::Good))
+//! }
+//! ```
+//!
+//! Words go to stderr, data to stdout; only programs use this crate.
+
+mod interrupt;
+mod outcome;
+mod progress;
+
+pub use interrupt::{interrupted, on_interrupt_ask};
+pub use outcome::{Outcome, run};
+pub use progress::{Bar, progress_bar};
