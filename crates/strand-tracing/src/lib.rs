@@ -1,1 +1,41 @@
 //! Rays against round tapering strands and triangles.
+//!
+//! A strand is the union of the cone-spheres between its points: the convex hull of a sphere round each
+//! end of a segment, so joints have no gaps and no leaks. [`Tracer::closest`] finds the first point where
+//! a ray ENTERS that union (or crosses a triangle, from either side); [`Tracer::occluded`] only asks
+//! whether there is one. Scattering and light are not this crate's business.
+//!
+//! # Leaving a fibre
+//!
+//! Fibres scatter in the near field: light comes out where it went in, so a scattered ray may start at the
+//! hit point and run through the fibre itself. Pass the primitive it leaves as `leaving`: the ray does not
+//! see that segment, nor any part of the same strand before it has come out of it. No ray is offset and
+//! there is no epsilon in world units; a curl that comes back to itself is hit.
+//!
+//! ```
+//! use glam::{Vec3, vec3};
+//! use strand_tracing::{BuildOptions, HitKind, Radii, Ray, Strands, Tracer};
+//!
+//! let positions = [vec3(-1.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)];
+//! let hair = Strands { offsets: &[0, 3], positions: &positions, radii: Radii::Constant(0.01) };
+//! let tracer = Tracer::build(&[hair], &[], &BuildOptions::default())?;
+//!
+//! let ray = Ray { origin: vec3(0.5, 0.005, 2.0), direction: Vec3::NEG_Z, t_max: f32::INFINITY };
+//! let hit = tracer.closest(&ray, None).ok_or("missed")?;
+//! let HitKind::Segment { h, .. } = hit.kind else { return Err("not hair".into()) };
+//! assert!((h.abs() - 0.5).abs() < 1e-4);
+//!
+//! let onward = Ray { origin: hit.position, ..ray };
+//! assert!(!tracer.occluded(&onward, Some(hit.primitive)));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod error;
+mod hit;
+mod input;
+mod tracer;
+
+pub use error::TracingError;
+pub use hit::{Hit, HitKind, Primitive, Ray};
+pub use input::{BuildOptions, BuildQuality, Radii, Strands, Triangles};
+pub use tracer::{Statistics, Tracer};
