@@ -1,0 +1,69 @@
+//! How much light each lobe carries: Fresnel's equations and Beer's law over the chord.
+
+use crate::real::Real;
+
+/// The fibre's cross-section as light from one direction meets it at one offset.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Chord<T> {
+    /// The share reflected at the surface.
+    pub fresnel: T,
+    /// Length of one crossing of the fibre, in radii.
+    pub length: T,
+    /// Angle of the ray against the normal outside, in the cross-section.
+    pub gamma_i: T,
+    /// The same inside.
+    pub gamma_t: T,
+}
+
+impl<T: Real> Chord<T> {
+    /// `eta2_minus_1` is `eta^2 - 1 > 0`; `cos_theta` in [0, 1]; `h` in [-1, 1].
+    ///
+    /// Every root is of `eta^2 - 1` plus a square: written so, neither grazing light nor an index
+    /// next to 1 cancels, and `eta' = sqrt(eta^2 - sin^2) / cos` is never divided by.
+    pub fn new(eta2_minus_1: T, cos_theta: T, h: T) -> Self {
+        let e = eta2_minus_1;
+        let cos2_theta = cos_theta * cos_theta;
+        let cos2_gamma = (T::ONE - h) * (T::ONE + h);
+        let eta2 = T::ONE + e;
+        let bent = (e + cos2_theta).sqrt();
+        let bent_across = (e + cos2_theta * cos2_gamma).sqrt();
+        let sin_gamma_t = h * cos_theta / bent;
+        let cos_gamma_t = bent_across / bent;
+        // 2 cos(gamma_t) / cos(theta_t), where cos(theta_t) = bent / eta.
+        let length = T::TWO * cos_gamma_t * eta2.sqrt() / bent;
+        Chord {
+            fresnel: fresnel(e, cos_theta * cos2_gamma.sqrt()),
+            length,
+            gamma_i: h.asin(),
+            gamma_t: sin_gamma_t.max(-T::ONE).min(T::ONE).asin(),
+        }
+    }
+
+    /// A_0 .. A_3 for one absorption coefficient; they sum to 1 when it is 0.
+    ///
+    /// The last is the whole geometric series that begins with two inner reflections.
+    pub fn attenuations(&self, sigma_a: T) -> [T; 4] {
+        let depth = sigma_a * self.length;
+        let pass = (-depth).exp();
+        let reflected = self.fresnel;
+        let entered = T::ONE - reflected;
+        let tt = entered * entered * pass;
+        let trt = tt * pass * reflected;
+        // 1 - F T as two positive parts: both vanish only where nothing enters.
+        let rest = entered - reflected * (-depth).exp_m1();
+        let residual = if rest > T::ZERO { trt * pass * reflected / rest } else { T::ZERO };
+        [reflected, tt, trt, residual]
+    }
+}
+
+/// Unpolarised reflectance of a dielectric of `eta^2 = 1 + e` at `cos` of incidence.
+fn fresnel<T: Real>(e: T, cos: T) -> T {
+    let inside = (e + cos * cos).sqrt();
+    let eta2 = T::ONE + e;
+    let across_below = cos + inside;
+    let along_below = eta2 * cos + inside;
+    // The textbook differences over sums, multiplied out: nothing cancels for an index next to 1.
+    let across = e / (across_below * across_below);
+    let along = e * ((eta2 + T::ONE) * cos * cos - T::ONE) / (along_below * along_below);
+    (T::of(0.5) * (across * across + along * along)).min(T::ONE)
+}

@@ -1,0 +1,58 @@
+//! How light spreads around the fibre: the logistic density of Chiang et al. 2016, cut to one turn.
+
+use crate::real::Real;
+
+/// A logistic density around 0, cut to [-pi, pi] and made to integrate to 1 there.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct TrimmedLogistic<T> {
+    scale: T,
+    inverse_scale: T,
+    /// `1 / (s k)`, k as below.
+    height: T,
+    /// The share of the untrimmed density inside the turn: `k = tanh(pi / 2s)`.
+    inside: T,
+    /// `1 - k`, which `k` itself cannot show for a smooth fibre.
+    outside: T,
+}
+
+impl<T: Real> TrimmedLogistic<T> {
+    /// `scale > 0`, in radians.
+    pub fn new(scale: f64) -> Self {
+        let edge = (-std::f64::consts::PI / scale).exp();
+        let inside = (1.0 - edge) / (1.0 + edge);
+        TrimmedLogistic {
+            scale: T::of(scale),
+            inverse_scale: T::of(1.0 / scale),
+            height: T::of(1.0 / (scale * inside)),
+            inside: T::of(inside),
+            outside: T::of(2.0 * edge / (1.0 + edge)),
+        }
+    }
+
+    /// The density at `x` in [-pi, pi]. The exponent is never positive: nothing overflows.
+    #[inline]
+    pub fn density(&self, x: T) -> T {
+        let fall = (-x.abs() * self.inverse_scale).exp();
+        let below = T::ONE + fall;
+        fall * self.height / (below * below)
+    }
+
+    /// An angle distributed as [`TrimmedLogistic::density`] says.
+    pub fn sample(&self, u: T) -> T {
+        let before = self.outside + T::TWO * self.inside * u;
+        let after = self.outside + T::TWO * self.inside * (T::ONE - u);
+        (self.scale * (before / after).ln()).max(-T::PI).min(T::PI)
+    }
+}
+
+/// The same angle in [-pi, pi], for angles within three turns of it.
+#[inline]
+pub(crate) fn wrapped<T: Real>(mut angle: T) -> T {
+    while angle > T::PI {
+        angle = angle - T::TAU;
+    }
+    while angle < -T::PI {
+        angle = angle + T::TAU;
+    }
+    angle
+}

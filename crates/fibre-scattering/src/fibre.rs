@@ -1,0 +1,206 @@
+//! The model itself, in either precision.
+//!
+//! f cos(theta_i) = sum over p of A_p(h) M_p(theta_i) N_p(phi): Chiang et al. 2016, "A Practical
+//! and Controllable Hair and Fur Model for Production Path Tracing" (doi:10.1111/cgf.12830).
+
+use crate::attenuation::Chord;
+use crate::azimuthal::{TrimmedLogistic, wrapped};
+use crate::longitudinal::{Inclination, Longitudinal};
+use crate::parameters::{HairParameters, SMALLEST_ROUGHNESS};
+use crate::real::Real;
+
+/// What depends on the material alone.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Fibre<T> {
+    eta2_minus_1: T,
+    pub sigma_a: [T; 3],
+    lobe_weights: [T; 4],
+    /// Sine and cosine of the tilt each lobe gives the outgoing inclination.
+    tilts: [(T, T); 4],
+    spread: Spread<T>,
+}
+
+/// The lobes' shapes, which an evaluation needs.
+#[derive(Debug, Clone, Copy)]
+struct Spread<T> {
+    /// R, TT, and TRT, whose variance the residual shares.
+    along: [Longitudinal<T>; 3],
+    around: TrimmedLogistic<T>,
+}
+
+impl<T: Real> Fibre<T> {
+    /// `parameters` have passed their check.
+    pub fn new(parameters: &HairParameters) -> Self {
+        let beta_m = f64::from(parameters.beta_m.max(SMALLEST_ROUGHNESS));
+        let beta_n = f64::from(parameters.beta_n.max(SMALLEST_ROUGHNESS));
+        let eta = f64::from(parameters.eta);
+        let alpha = f64::from(parameters.alpha);
+        let v = longitudinal_variance(beta_m);
+        Fibre {
+            eta2_minus_1: T::of((eta - 1.0) * (eta + 1.0)),
+            sigma_a: parameters.sigma_a.to_array().map(|s| T::of(f64::from(s))),
+            lobe_weights: parameters.lobe_weights.map(|w| T::of(f64::from(w))),
+            tilts: tilts(alpha).map(|tilt| (T::of(tilt.sin()), T::of(tilt.cos()))),
+            spread: Spread {
+                along: [v, 0.25 * v, 4.0 * v].map(Longitudinal::new),
+                around: TrimmedLogistic::new(logistic_scale(beta_n)),
+            },
+        }
+    }
+
+    /// Prepares all that does not depend on `wi`.
+    pub fn at(&self, wo: [T; 3], h: T) -> Hit<T> {
+        let h = h.max(-T::ONE).min(T::ONE);
+        let (theta_o, turn_o) = inclination_and_turn(wo);
+        let chord = Chord::new(self.eta2_minus_1, theta_o.cos.min(T::ONE), h);
+        let channels = self.sigma_a.map(|sigma| chord.attenuations(sigma));
+        let attenuations = std::array::from_fn(|p| {
+            std::array::from_fn(|channel| channels[channel][p] * self.lobe_weights[p])
+        });
+        Hit {
+            turn_o,
+            mirrors: self.tilts.map(|tilt| theta_o.turned(tilt)),
+            centres: exit_azimuths(&chord),
+            probabilities: probabilities(&attenuations),
+            attenuations,
+            spread: self.spread,
+        }
+    }
+}
+
+/// v of R from the roughness along the fibre: Chiang et al. 2016, eq. 7.
+fn longitudinal_variance(beta_m: f64) -> f64 {
+    let deviation = 0.726 * beta_m + 0.812 * beta_m * beta_m + 3.7 * beta_m.powi(20);
+    deviation * deviation
+}
+
+/// The logistic's scale from the roughness around the fibre: Chiang et al. 2016, eq. 8. The root of
+/// pi/8 gives the logistic the peak of a Gaussian of that deviation.
+fn logistic_scale(beta_n: f64) -> f64 {
+    let deviation = 0.265 * beta_n + 1.194 * beta_n * beta_n + 5.372 * beta_n.powi(22);
+    (std::f64::consts::PI / 8.0).sqrt() * deviation
+}
+
+/// How far each lobe turns the outgoing inclination. The residual has met so many scales that no
+/// direction is left.
+///
+/// Scales open towards the tip, so each is wider at its tip end and its normals lean to the root,
+/// the side of negative inclinations: R leaves 2 alpha nearer to the root than a mirror would send
+/// it. The outgoing direction is turned instead, and the other way. (pbrt has the opposite signs:
+/// its tangents run from tip to root, or its alpha is that of a hair upside down.)
+fn tilts(alpha: f64) -> [f64; 4] {
+    [2.0 * alpha, -alpha, -4.0 * alpha, 0.0]
+}
+
+/// The azimuth, against that of `wo`, where R, TT and TRT leave a smooth fibre.
+fn exit_azimuths<T: Real>(chord: &Chord<T>) -> [T; 3] {
+    let r = -T::TWO * chord.gamma_i;
+    let inside = T::TWO * chord.gamma_t;
+    [r, wrapped(r + inside + T::PI), wrapped(r + inside + inside)]
+}
+
+/// Chance of each lobe, by what it carries in the channel that is absorbed least.
+///
+/// No channel of any lobe carries more than that one, so value over pdf never exceeds the sum of
+/// the weighted attenuations there: a path's throughput is bounded by 1 in every channel, and no
+/// lobe that is bright in one channel is starved because it is dark in the others.
+fn probabilities<T: Real>(attenuations: &[[T; 3]; 4]) -> [T; 4] {
+    let most = attenuations.map(|[r, g, b]| r.max(g).max(b));
+    let sum = most[0] + most[1] + most[2] + most[3];
+    if sum > T::ZERO { most.map(|most| most / sum) } else { [T::ZERO; 4] }
+}
+
+/// The inclination of a unit direction and the cosine and sine of its azimuth.
+fn inclination_and_turn<T: Real>([along, y, z]: [T; 3]) -> (Inclination<T>, [T; 2]) {
+    // From the part across the fibre and not from the sine, which knows little about it when the
+    // direction grazes the fibre.
+    let cos = (y * y + z * z).sqrt();
+    let sin = along.max(-T::ONE).min(T::ONE);
+    let turn = if cos > T::ZERO { [y / cos, z / cos] } else { [T::ONE, T::ZERO] };
+    (Inclination { sin, cos }, turn)
+}
+
+/// A fibre met by a ray.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Hit<T> {
+    turn_o: [T; 2],
+    /// The outgoing inclination as each lobe's scales see it.
+    mirrors: [Inclination<T>; 4],
+    centres: [T; 3],
+    probabilities: [T; 4],
+    pub attenuations: [[T; 3]; 4],
+    spread: Spread<T>,
+}
+
+impl<T: Real> Hit<T> {
+    /// M_p N_p of each lobe; zero for one that carries nothing.
+    #[inline]
+    fn densities(&self, wi: [T; 3]) -> [T; 4] {
+        let [along, y, z] = wi;
+        let theta_i = Inclination { sin: along, cos: (y * y + z * z).sqrt() };
+        let [cos_o, sin_o] = self.turn_o;
+        let phi = (z * cos_o - y * sin_o).atan2(y * cos_o + z * sin_o);
+        std::array::from_fn(|p| {
+            if self.probabilities[p] == T::ZERO {
+                return T::ZERO;
+            }
+            let around = match self.centres.get(p) {
+                Some(&centre) => self.spread.around.density(wrapped(phi - centre)),
+                None => T::ONE / T::TAU,
+            };
+            if around == T::ZERO {
+                return T::ZERO;
+            }
+            around * self.spread.along[p.min(2)].density(theta_i, self.mirrors[p])
+        })
+    }
+
+    /// f cos(theta_i) per lobe and channel, and the density over solid angle.
+    #[inline]
+    pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 4], T) {
+        let densities = self.densities(wi);
+        let values = std::array::from_fn(|p| self.attenuations[p].map(|carried| carried * densities[p]));
+        (values, self.mixed(&densities))
+    }
+
+    /// The density over solid angle alone.
+    pub fn pdf(&self, wi: [T; 3]) -> T {
+        self.mixed(&self.densities(wi))
+    }
+
+    fn mixed(&self, densities: &[T; 4]) -> T {
+        (0..4).fold(T::ZERO, |sum, p| sum + self.probabilities[p] * densities[p])
+    }
+
+    /// A direction drawn by the pdf and the lobe it was drawn from; nothing where no lobe carries
+    /// light.
+    pub fn sample_direction(&self, u: [T; 4]) -> Option<([T; 3], usize)> {
+        let p = self.chosen(u[0])?;
+        let theta_i = self.spread.along[p.min(2)].sample(self.mirrors[p], [u[1], u[2]]);
+        let phi = match self.centres.get(p) {
+            Some(&centre) => centre + self.spread.around.sample(u[3]),
+            None => T::TAU * u[3],
+        };
+        let (sin_phi, cos_phi) = phi.sin_cos();
+        let [cos_o, sin_o] = self.turn_o;
+        let y = theta_i.cos * (cos_phi * cos_o - sin_phi * sin_o);
+        let z = theta_i.cos * (sin_phi * cos_o + cos_phi * sin_o);
+        Some(([theta_i.sin, y, z], p))
+    }
+
+    /// The lobe a uniform number falls on; the last that has a chance when rounding leaves none.
+    fn chosen(&self, u: T) -> Option<usize> {
+        let mut left = u;
+        let mut last = None;
+        for (p, &probability) in self.probabilities.iter().enumerate() {
+            if probability > T::ZERO {
+                last = Some(p);
+                if left < probability {
+                    break;
+                }
+                left = left - probability;
+            }
+        }
+        last
+    }
+}

@@ -1,0 +1,94 @@
+//! The two precisions the model is written for.
+
+use std::fmt::Debug;
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+use crate::bessel;
+
+/// `f32` for rendering, `f64` to know how good that is.
+pub(crate) trait Real:
+    Copy
+    + Debug
+    + PartialOrd
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    const ZERO: Self;
+    const ONE: Self;
+    const TWO: Self;
+    const PI: Self;
+    const TAU: Self;
+
+    fn of(value: f64) -> Self;
+    fn abs(self) -> Self;
+    fn max(self, other: Self) -> Self;
+    fn min(self, other: Self) -> Self;
+    fn sqrt(self) -> Self;
+    fn exp(self) -> Self;
+    fn exp_m1(self) -> Self;
+    fn ln(self) -> Self;
+    fn ln_1p(self) -> Self;
+    fn asin(self) -> Self;
+    fn atan2(self, x: Self) -> Self;
+    fn sin_cos(self) -> (Self, Self);
+    /// `exp(-x) I0(x)` for `x >= 0`.
+    fn scaled_bessel_i0(self) -> Self;
+}
+
+macro_rules! real {
+    ($real:ident, $bessel:path) => {
+        impl Real for $real {
+            const ZERO: Self = 0.0;
+            const ONE: Self = 1.0;
+            const TWO: Self = 2.0;
+            const PI: Self = std::$real::consts::PI;
+            const TAU: Self = std::$real::consts::TAU;
+
+            fn of(value: f64) -> Self {
+                value as $real
+            }
+            fn abs(self) -> Self {
+                $real::abs(self)
+            }
+            fn max(self, other: Self) -> Self {
+                $real::max(self, other)
+            }
+            fn min(self, other: Self) -> Self {
+                $real::min(self, other)
+            }
+            fn sqrt(self) -> Self {
+                $real::sqrt(self)
+            }
+            fn exp(self) -> Self {
+                $real::exp(self)
+            }
+            fn exp_m1(self) -> Self {
+                $real::exp_m1(self)
+            }
+            fn ln(self) -> Self {
+                $real::ln(self)
+            }
+            fn ln_1p(self) -> Self {
+                $real::ln_1p(self)
+            }
+            fn asin(self) -> Self {
+                $real::asin(self)
+            }
+            fn atan2(self, x: Self) -> Self {
+                $real::atan2(self, x)
+            }
+            fn sin_cos(self) -> (Self, Self) {
+                $real::sin_cos(self)
+            }
+            fn scaled_bessel_i0(self) -> Self {
+                $bessel(self)
+            }
+        }
+    };
+}
+
+real!(f32, bessel::scaled_i0_single);
+real!(f64, bessel::scaled_i0_double);
