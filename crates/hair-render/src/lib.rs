@@ -1,1 +1,66 @@
 //! A path tracer for hair: scene, cameras, lights, integrator, film, EXR.
+//!
+//! A [`SceneDescription`] (grooms, meshes, an [`Environment`], [`AreaLight`]s) is built into a
+//! [`Scene`], seen through a [`Camera`] and rendered to a [`Frame`]: beauty, alpha, a pass for every
+//! lobe of the fibres, and a [`FrameReport`] with the seconds it took and the estimated error.
+//!
+//! World space is metres, Y up, right-handed. Whatever unit or axes a groom or mesh comes in is
+//! turned into it by [`Scene::build`], which also recentres everything, so that a scene a million
+//! metres from the origin renders like one at the origin.
+//!
+//! The same scene, camera and settings give the same bits, whatever the number of threads.
+//!
+//! ```
+//! use glam::Vec3;
+//! use groom::{Attribute, Groom, names};
+//! use hair_render::*;
+//!
+//! let mut groom = Groom::new(vec![0, 2], vec![Vec3::ZERO, Vec3::Y])?;
+//! groom.set_attribute(names::RADIUS, Attribute::constant_float(0.05))?;
+//! let scene = Scene::build(SceneDescription {
+//!     hair: vec![HairObject { groom, material: HairMaterial::default() }],
+//!     environment: Some(Environment::constant(Vec3::ONE)?),
+//!     ..Default::default()
+//! })?;
+//! let camera = Camera::fit(scene.bounds(), 0.0, 0.0, 0.5, 1.0)?;
+//! let settings = RenderSettings { width: 16, height: 16, spp: 4, ..Default::default() };
+//! let frame = render(&scene, &camera, &settings, &Silent)?;
+//! assert!(frame.alpha.iter().any(|&alpha| alpha > 0.0));
+//! println!("{} s, relative error {:?}", frame.report.seconds, frame.report.relative_error);
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod aov;
+mod area_light;
+mod bounds;
+mod camera;
+mod description;
+mod environment;
+mod environment_file;
+mod error;
+mod explain;
+mod exr_file;
+mod frame;
+mod progress;
+mod render;
+mod scene;
+mod settings;
+mod studio;
+mod tone_map;
+
+pub use aov::{Aov, AovSet};
+pub use area_light::AreaLight;
+pub use bounds::Bounds;
+pub use camera::Camera;
+pub use description::{HairColor, HairMaterial, HairObject, MeshObject, SceneDescription, Transparency};
+pub use environment::Environment;
+pub use error::RenderError;
+pub use explain::{LeftOut, explain};
+pub use exr_file::{Metadata, Precision};
+pub use frame::{Frame, FrameReport};
+pub use progress::{Progress, Silent};
+pub use render::render;
+pub use scene::Scene;
+pub use settings::{Background, LightSampling, RenderSettings};
+pub use studio::write_studio;
+pub use tone_map::{Backdrop, Curve, Preview, ToneMapping, tone_map};

@@ -1,0 +1,81 @@
+//! What can go wrong between a description and a picture on disk.
+
+use std::path::PathBuf;
+
+/// A scene, picture or file that cannot be made as asked.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// A setting or a part of the scene is out of its range.
+    #[error("{what} is {found}, expected {expected}")]
+    Argument {
+        /// What was given.
+        what: &'static str,
+        /// The value found.
+        found: String,
+        /// The range it must lie in.
+        expected: &'static str,
+    },
+    /// A file could not be read or written.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// Why not.
+        #[source]
+        source: std::io::Error,
+    },
+    /// A picture file breaks its format's rules.
+    #[error("{}: not a readable picture: {reason}", path.display())]
+    InvalidPicture {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// A picture file may be sound, but is nothing that light can be taken from.
+    #[error("{}: cannot serve as an environment: {reason}", path.display())]
+    UnsupportedPicture {
+        /// The file.
+        path: PathBuf,
+        /// What is missing.
+        reason: String,
+    },
+    /// The picture could not be encoded.
+    #[error("{}: cannot be encoded: {reason}", path.display())]
+    Encode {
+        /// The file that was to be written.
+        path: PathBuf,
+        /// What the encoder said.
+        reason: String,
+    },
+    /// The hair material is out of its range.
+    #[error("hair object {object}: {source}")]
+    Scattering {
+        /// Index into the scene's hair.
+        object: usize,
+        /// What the scattering model said.
+        #[source]
+        source: fibre_scattering::ScatteringError,
+    },
+    /// The geometry cannot be traced.
+    #[error(transparent)]
+    Tracing(#[from] strand_tracing::TracingError),
+    /// The threads could not be started.
+    #[error("cannot start {threads} threads: {reason}")]
+    Threads {
+        /// How many were asked for (0: one a core).
+        threads: usize,
+        /// What the operating system said.
+        reason: String,
+    },
+    /// The caller asked to stop; nothing was kept.
+    #[error("rendering was cancelled")]
+    Cancelled,
+}
+
+impl RenderError {
+    /// A value out of its range.
+    pub(crate) fn argument(what: &'static str, found: impl ToString, expected: &'static str) -> Self {
+        RenderError::Argument { what, found: found.to_string(), expected }
+    }
+}

@@ -1,0 +1,170 @@
+//! A frame as one OpenEXR file with a layer for every pass.
+
+use std::collections::BTreeMap;
+use std::io::BufWriter;
+use std::path::Path;
+
+use exr::prelude as openexr;
+use glam::Vec3;
+use half::f16;
+use openexr::{AnyChannel, AnyChannels, AttributeValue, FlatSamples, WritableImage};
+use whole_file::WholeFile;
+
+use crate::{Camera, Frame, RenderError};
+
+/// How the colours are stored.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Precision {
+    /// 32-bit floats: the passes add up to the beauty.
+    #[default]
+    Float,
+    /// 16-bit floats: half the bytes, 3 significant digits, at most 65504.
+    Half,
+}
+
+/// What is written beside the pixels.
+#[derive(Clone, Debug, Default)]
+pub struct Metadata {
+    /// The command line that made the picture.
+    pub command: String,
+    /// A digest of everything the picture depends on, for skipping what is up to date.
+    pub digest: String,
+    /// The camera, stored as `worldToCamera`.
+    pub camera: Option<Camera>,
+    /// How the colours are stored.
+    pub precision: Precision,
+    /// More attributes; keys must not be empty.
+    pub extra: BTreeMap<String, String>,
+}
+
+impl Frame {
+    /// Writes the picture whole or not at all.
+    ///
+    /// One part, ZIP compressed. Beauty and alpha are the channels `R`, `G`, `B`, `A`; a pass `TT` is
+    /// `TT.R`, `TT.G`, `TT.B`. Attributes: `software`, `command`, `digest`, `seed`, `spp`, `seconds`,
+    /// `threads`, `relMSE`, `relativeError` (left out when not known), `colorInteropID` =
+    /// `lin_rec709_scene`, `chromaticities`, `worldToCamera` and the extra ones.
+    ///
+    /// # Errors
+    /// [`RenderError::Io`] or [`RenderError::Encode`]; the old file, if any, is then untouched.
+    pub fn write_exr(&self, path: &Path, metadata: &Metadata) -> Result<(), RenderError> {
+        let mut channels: openexr::SmallVec<[AnyChannel<FlatSamples>; 4]> = openexr::SmallVec::new();
+        push_color(&mut channels, "", &self.beauty, metadata.precision);
+        channels.push(AnyChannel::new("A", samples(self.alpha.iter().copied(), metadata.precision)));
+        for (aov, pixels) in &self.passes {
+            push_color(&mut channels, &format!("{}.", aov.name()), pixels, metadata.precision);
+        }
+        let size = (self.width as usize, self.height as usize);
+        let layer =
+            openexr::Layer::new(size, self.attributes(metadata), encoding(), AnyChannels::sort(channels));
+        let mut image = openexr::Image::from_layer(layer);
+        image.attributes.chromaticities = Some(rec709());
+        write_image(path, &image)
+    }
+
+    fn attributes(&self, metadata: &Metadata) -> openexr::LayerAttributes {
+        let report = &self.report;
+        let mut attributes = openexr::LayerAttributes::default();
+        attributes.software_name = text(concat!("groomkit hair-render ", env!("CARGO_PKG_VERSION")));
+        attributes.world_to_camera = metadata.camera.map(|camera| {
+            // OpenEXR multiplies row vectors: its rows are our columns.
+            camera.camera_from_world().as_mat4().to_cols_array()
+        });
+        let mut put = |key: &str, value: AttributeValue| {
+            if let Some(key) = text(key) {
+                attributes.other.insert(key, value);
+            }
+        };
+        let strings = [
+            ("command", metadata.command.clone()),
+            ("digest", metadata.digest.clone()),
+            ("seed", report.seed.to_string()),
+            ("colorInteropID", "lin_rec709_scene".to_owned()),
+        ];
+        let extra = metadata.extra.iter().map(|(key, value)| (key.as_str(), value.clone()));
+        for (key, value) in strings.into_iter().chain(extra).filter(|(key, _)| !key.is_empty()) {
+            if let Some(value) = text(&value) {
+                put(key, AttributeValue::Text(value));
+            }
+        }
+        put("spp", AttributeValue::I32(i32::try_from(report.spp).unwrap_or(i32::MAX)));
+        put("threads", AttributeValue::I32(i32::try_from(report.threads).unwrap_or(i32::MAX)));
+        put("seconds", AttributeValue::F64(report.seconds));
+        for (key, value) in [("relMSE", report.rel_mse), ("relativeError", report.relative_error)] {
+            if let Some(value) = value {
+                put(key, AttributeValue::F64(value));
+            }
+        }
+        attributes
+    }
+}
+
+/// Linear Rec. 709 primaries with a D65 white.
+fn rec709() -> openexr::attribute::Chromaticities {
+    openexr::attribute::Chromaticities {
+        red: openexr::Vec2(0.64, 0.33),
+        green: openexr::Vec2(0.30, 0.60),
+        blue: openexr::Vec2(0.15, 0.06),
+        white: openexr::Vec2(0.3127, 0.3290),
+    }
+}
+
+fn encoding() -> openexr::Encoding {
+    openexr::Encoding {
+        compression: openexr::Compression::ZIP16,
+        blocks: openexr::Blocks::ScanLines,
+        line_order: openexr::LineOrder::Increasing,
+    }
+}
+
+/// Latin-1 text, as OpenEXR has it; `None` for what cannot be said in it.
+fn text(words: &str) -> Option<openexr::Text> {
+    openexr::Text::new_or_none(words)
+}
+
+fn samples(values: impl Iterator<Item = f32>, precision: Precision) -> FlatSamples {
+    match precision {
+        Precision::Float => FlatSamples::F32(values.collect()),
+        // Too bright for a half is stored as the brightest half: infinities break what comes after.
+        Precision::Half => FlatSamples::F16(values.map(|v| f16::from_f32(v.clamp(-65504.0, 65504.0))).collect()),
+    }
+}
+
+fn push_color(
+    channels: &mut openexr::SmallVec<[AnyChannel<FlatSamples>; 4]>,
+    prefix: &str,
+    pixels: &[Vec3],
+    precision: Precision,
+) {
+    for (channel, name) in ["R", "G", "B"].into_iter().enumerate() {
+        let values = pixels.iter().map(|pixel| pixel[channel]);
+        channels.push(AnyChannel::new(format!("{prefix}{name}").as_str(), samples(values, precision)));
+    }
+}
+
+/// Writes colours alone, as an environment wants them.
+pub(crate) fn write_rgb(path: &Path, width: usize, pixels: &[Vec3], precision: Precision) -> Result<(), RenderError> {
+    let mut channels = openexr::SmallVec::new();
+    push_color(&mut channels, "", pixels, precision);
+    let mut attributes = openexr::LayerAttributes::default();
+    attributes.environment_map = Some(openexr::attribute::EnvironmentMap::LatitudeLongitude);
+    let size = (width, pixels.len() / width.max(1));
+    let layer = openexr::Layer::new(size, attributes, encoding(), AnyChannels::sort(channels));
+    let mut image = openexr::Image::from_layer(layer);
+    image.attributes.chromaticities = Some(rec709());
+    write_image(path, &image)
+}
+
+fn write_image(
+    path: &Path,
+    image: &openexr::Image<openexr::Layer<AnyChannels<FlatSamples>>>,
+) -> Result<(), RenderError> {
+    let io = |source| RenderError::Io { path: path.to_owned(), source };
+    let mut file = BufWriter::new(WholeFile::create(path).map_err(|e| io(e.into()))?);
+    image.write().to_buffered(&mut file).map_err(|fault| match fault {
+        exr::error::Error::Io(source) => io(source),
+        other => RenderError::Encode { path: path.to_owned(), reason: other.to_string() },
+    })?;
+    let file = file.into_inner().map_err(|e| io(e.into_error()))?;
+    file.commit().map_err(|e| io(e.into()))
+}
