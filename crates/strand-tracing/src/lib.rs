@@ -30,10 +30,18 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod bounds;
+mod build;
+mod cone_sphere;
 mod error;
+mod fibres;
 mod hit;
 mod input;
+mod line;
+mod meshes;
 mod tracer;
+mod triangle;
+mod wide_tree;
 
 pub use error::TracingError;
 pub use hit::{Hit, HitKind, Primitive, Ray};

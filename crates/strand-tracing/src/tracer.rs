@@ -1,12 +1,23 @@
 //! The tracer: geometry, its tree, and the two questions a ray asks.
 
-use glam::Vec3;
+use std::time::Instant;
 
-use crate::{BuildOptions, Hit, Primitive, Ray, Strands, TracingError, Triangles};
+use glam::{DVec3, Vec3};
+
+use crate::build::{self, TRIANGLE};
+use crate::fibres::{Departure, Fibres};
+use crate::line::Line;
+use crate::meshes::Meshes;
+use crate::triangle::{self, Shear};
+use crate::wide_tree::{WideTree, reach};
+use crate::{BuildOptions, Hit, HitKind, Primitive, Ray, Strands, TracingError, Triangles};
 
 /// Geometry ready to be traced. Shared between threads; a query changes nothing.
 #[derive(Clone, Debug)]
 pub struct Tracer {
+    fibres: Fibres,
+    meshes: Meshes,
+    tree: WideTree,
     bounds: (Vec3, Vec3),
     statistics: Statistics,
 }
@@ -32,26 +43,62 @@ impl Tracer {
     /// # Errors
     /// Offsets, indices or counts that do not fit, and numbers that are not finite.
     pub fn build(
-        _strands: &[Strands],
-        _triangles: &[Triangles],
-        _options: &BuildOptions,
+        strands: &[Strands],
+        triangles: &[Triangles],
+        options: &BuildOptions,
     ) -> Result<Self, TracingError> {
-        Ok(Self { bounds: (Vec3::ZERO, Vec3::ZERO), statistics: Statistics::default() })
+        let start = Instant::now();
+        build::check_counts(strands, triangles)?;
+        let fibres = Fibres::gather(strands)?;
+        let meshes = Meshes::gather(triangles)?;
+        let (tree, bounds) = build::tree(&fibres, &meshes, options);
+        let statistics = Statistics {
+            segments: fibres.solid().count(),
+            triangles: meshes.all().len(),
+            nodes: tree.node_count(),
+            bytes: fibres.bytes() + meshes.bytes() + tree.bytes(),
+            build_seconds: start.elapsed().as_secs_f64(),
+        };
+        Ok(Self { fibres, meshes, tree, bounds, statistics })
     }
 
-    /// The first hit with `0 < t <= ray.t_max`, not counting what the ray leaves.
+    /// The first hit with `0 < t <= ray.t_max`, not counting what the ray leaves: pass the primitive of the
+    /// hit a ray starts from, with the ray's origin at [`Hit::position`].
+    ///
+    /// Of several hits at the same distance the one that came first in the input counts, strands before
+    /// triangles. A ray with a component that is not a number hits nothing.
     #[must_use]
-    pub fn closest(&self, _ray: &Ray, _leaving: Option<Primitive>) -> Option<Hit> {
-        None
+    pub fn closest(&self, ray: &Ray, leaving: Option<Primitive>) -> Option<Hit> {
+        let query = Query::new(self, ray, leaving);
+        let mut far = reach(f64::from(ray.t_max));
+        let mut best: Option<(f64, u32)> = None;
+        self.tree.walk::<true>(ray, &mut far, |leaf, far| {
+            let within = best.map_or(f64::from(ray.t_max), |(t, _)| t);
+            if let Some(t) = query.hit(leaf, within)
+                && best.is_none_or(|(nearest, first)| t < nearest || leaf < first)
+            {
+                best = Some((t, leaf));
+                *far = reach(t);
+            }
+            false
+        });
+        best.and_then(|(t, leaf)| query.describe(leaf, t, ray.t_max))
     }
 
     /// Whether [`closest`](Tracer::closest) would find anything; stops at the first thing found.
     #[must_use]
-    pub fn occluded(&self, _ray: &Ray, _leaving: Option<Primitive>) -> bool {
-        false
+    pub fn occluded(&self, ray: &Ray, leaving: Option<Primitive>) -> bool {
+        let query = Query::new(self, ray, leaving);
+        let mut found = false;
+        let within = f64::from(ray.t_max);
+        self.tree.walk::<false>(ray, &mut reach(within), |leaf, _| {
+            found = query.hit(leaf, within).is_some();
+            found
+        });
+        found
     }
 
-    /// Least and greatest corner of everything; two zeros for an empty tracer.
+    /// Least and greatest corner of everything that can be hit; two zeros for an empty tracer.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, Vec3) {
         self.bounds
@@ -61,5 +108,116 @@ impl Tracer {
     #[must_use]
     pub fn statistics(&self) -> &Statistics {
         &self.statistics
+    }
+}
+
+/// What a ray starts on.
+enum Left {
+    Nothing,
+    Fibre(Departure),
+    Triangle(u32),
+}
+
+/// One ray against one tracer.
+struct Query<'a> {
+    tracer: &'a Tracer,
+    line: Line,
+    left: Left,
+}
+
+impl<'a> Query<'a> {
+    #[inline]
+    fn new(tracer: &'a Tracer, ray: &Ray, leaving: Option<Primitive>) -> Self {
+        let left = match leaving {
+            None => None,
+            Some(Primitive::Segment { object, strand, segment }) => {
+                tracer.fibres.departure(object, strand, segment).map(Left::Fibre)
+            }
+            Some(Primitive::Triangle { object, triangle }) => {
+                tracer.meshes.number(object, triangle).map(|n| Left::Triangle(TRIANGLE | n))
+            }
+        };
+        Self { tracer, line: Line::of(ray), left: left.unwrap_or(Left::Nothing) }
+    }
+
+    /// Where the ray hits a leaf, if that is at `within` or before.
+    #[inline]
+    fn hit(&self, leaf: u32, within: f64) -> Option<f64> {
+        if leaf & TRIANGLE == 0 {
+            self.fibre_hit(leaf, within)
+        } else {
+            self.triangle_hit(leaf, within)
+        }
+    }
+
+    #[inline]
+    fn fibre_hit(&self, number: u32, within: f64) -> Option<f64> {
+        let fibres = &self.tracer.fibres;
+        if let Left::Fibre(departure) = &self.left
+            && departure.is_segment(number)
+        {
+            return None;
+        }
+        let cone = fibres.cone(number)?;
+        let t = cone.entry(&self.line).map(|entry| entry.t).filter(|&t| t > 0.0 && t <= within)?;
+        let inside = match &self.left {
+            Left::Fibre(departure) if departure.is_strand_of(number) => {
+                t <= fibres.way_out(departure, &self.line)
+            }
+            _ => fibres.is_inner(number, &cone, self.line.at(t)),
+        };
+        (!inside).then_some(t)
+    }
+
+    fn triangle_hit(&self, leaf: u32, within: f64) -> Option<f64> {
+        if let Left::Triangle(left) = self.left
+            && left == leaf
+        {
+            return None;
+        }
+        let vertices = self.tracer.meshes.all().get((leaf & !TRIANGLE) as usize)?;
+        let crossing = Shear::new(&self.line).cross(&self.line, vertices)?;
+        (crossing.t > 0.0 && crossing.t <= within).then_some(crossing.t)
+    }
+
+    fn describe(&self, leaf: u32, t: f64, t_max: f32) -> Option<Hit> {
+        let t = (t as f32).min(t_max);
+        if leaf & TRIANGLE == 0 { self.describe_fibre(leaf, t) } else { self.describe_triangle(leaf, t) }
+    }
+
+    fn describe_fibre(&self, number: u32, t: f32) -> Option<Hit> {
+        let fibres = &self.tracer.fibres;
+        let cone = fibres.cone(number)?;
+        let entry = cone.entry(&self.line)?;
+        let tangent = fibres.tangent(number, &cone);
+        let position = self.line.at(entry.t);
+        let outward: DVec3 = position - cone.a - cone.ab * entry.u;
+        Some(Hit {
+            t,
+            position: position.as_vec3(),
+            primitive: fibres.primitive(number),
+            kind: HitKind::Segment {
+                u: entry.u as f32,
+                tangent: tangent.as_vec3(),
+                h: cone.offset(&self.line, tangent, entry.u) as f32,
+                radius: cone.radius(entry.u) as f32,
+                normal: outward.normalize_or(-self.line.direction).as_vec3(),
+            },
+        })
+    }
+
+    fn describe_triangle(&self, leaf: u32, t: f32) -> Option<Hit> {
+        let number = leaf & !TRIANGLE;
+        let vertices = self.tracer.meshes.all().get(number as usize)?;
+        let crossing = Shear::new(&self.line).cross(&self.line, vertices)?;
+        Some(Hit {
+            t,
+            position: triangle::point(vertices, crossing.weights),
+            primitive: self.tracer.meshes.primitive(number),
+            kind: HitKind::Triangle {
+                barycentrics: crossing.weights.map(|w| w as f32),
+                normal: triangle::normal(vertices),
+            },
+        })
     }
 }

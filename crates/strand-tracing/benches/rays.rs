@@ -1,0 +1,226 @@
+//! Rays a second on one thread: this crate's tree against `obvhs`'s own two traversals, all with the same
+//! intersector, on a generated ball of hair and, where `$GROOMKIT_DATA` has it, `hair/straight.hair`.
+#![allow(missing_docs, dead_code, clippy::print_stdout, clippy::unwrap_used, clippy::indexing_slicing)]
+
+use std::hint::black_box;
+use std::time::{Duration, Instant};
+
+use glam::{Vec3, Vec4, vec3};
+use obvhs::BvhBuildParams;
+use obvhs::bvh2::builder::build_bvh2;
+use obvhs::cwbvh::builder::build_cwbvh;
+use obvhs::ray::RayHit;
+use strand_tracing::{
+    BuildOptions, BuildQuality, Hit, Primitive, Radii, Ray, Strands, Tracer,
+};
+
+#[path = "../src/bounds.rs"]
+mod bounds;
+#[path = "../src/cone_sphere.rs"]
+mod cone_sphere;
+#[path = "../src/line.rs"]
+mod line;
+
+use cone_sphere::ConeSphere;
+use line::Line;
+
+struct Hair {
+    name: &'static str,
+    offsets: Vec<u32>,
+    positions: Vec<Vec3>,
+    radii: Vec<f32>,
+}
+
+/// Uniform numbers from a counter (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1_u64 << 24) as f32
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        let z = 1.0 - 2.0 * self.next();
+        let (sin, cos) = (std::f32::consts::TAU * self.next()).sin_cos();
+        let across = (1.0 - z * z).max(0.0).sqrt();
+        vec3(across * cos, across * sin, z).normalize()
+    }
+}
+
+fn ball(strands: u32, segments: u32) -> Hair {
+    let mut random = Random(1);
+    let mut hair =
+        Hair { name: "ball", offsets: vec![0], positions: Vec::new(), radii: Vec::new() };
+    for _ in 0..strands {
+        let out = random.direction();
+        let side = out.any_orthonormal_vector() * (random.next() - 0.5);
+        for point in 0..=segments {
+            let s = point as f32 / segments as f32;
+            hair.positions.push(out * (5.0 + 5.0 * s) + (side + Vec3::NEG_Y) * 2.0 * s * s);
+            hair.radii.push(0.05 - 0.03 * s);
+        }
+        hair.offsets.push(hair.positions.len() as u32);
+    }
+    hair
+}
+
+fn straight() -> Option<Hair> {
+    let data = std::env::var("GROOMKIT_DATA")
+        .unwrap_or(concat!(env!("CARGO_MANIFEST_DIR"), "/../../../shared/data").into());
+    let bytes = std::fs::read(format!("{data}/hair/straight.hair")).ok()?;
+    let word = |at: usize| u32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
+    let (strands, points, arrays, usual) = (word(4), word(8), word(12), word(16));
+    let mut at = 128;
+    let mut offsets = vec![0];
+    for strand in 0..strands as usize {
+        let segments = match arrays & 1 {
+            1 => u32::from(u16::from_le_bytes(bytes[at + 2 * strand..][..2].try_into().unwrap())),
+            _ => usual,
+        };
+        offsets.push(offsets[strand] + segments + 1);
+    }
+    at += if arrays & 1 == 1 { 2 * strands as usize } else { 0 };
+    let number = |i: usize| f32::from_bits(word(at + 4 * i));
+    let positions: Vec<Vec3> = (0..points as usize)
+        .map(|p| vec3(number(3 * p), number(3 * p + 1), number(3 * p + 2)))
+        .collect();
+    Some(Hair { name: "straight.hair", offsets, radii: vec![0.05; positions.len()], positions })
+}
+
+fn timed<T>(what: impl FnOnce() -> T) -> (T, f64) {
+    let start = Instant::now();
+    let result = what();
+    (result, start.elapsed().as_secs_f64())
+}
+
+fn camera_rays(tracer: &Tracer, side: u32) -> Vec<Ray> {
+    let (low, high) = tracer.bounds();
+    let (centre, size) = ((low + high) * 0.5, (high - low).length());
+    let eye = centre + vec3(0.3, 0.2, 1.0).normalize() * size;
+    let ahead = (centre - eye).normalize();
+    let right = ahead.cross(Vec3::Y).normalize();
+    let up = right.cross(ahead);
+    let pixel = |i: u32| (i as f32 + 0.5) / side as f32 - 0.5;
+    (0..side * side)
+        .map(|i| {
+            let direction = ahead + right * pixel(i % side) * 0.7 + up * pixel(i / side) * 0.7;
+            Ray { origin: eye, direction: direction.normalize(), t_max: f32::INFINITY }
+        })
+        .collect()
+}
+
+fn bounces(hits: &[Hit]) -> Vec<(Ray, Primitive)> {
+    let mut random = Random(7);
+    hits.iter()
+        .map(|hit| {
+            let direction = random.direction();
+            (Ray { origin: hit.position, direction, t_max: f32::INFINITY }, hit.primitive)
+        })
+        .collect()
+}
+
+fn main() {
+    for hair in [Some(ball(10_000, 24)), straight()].into_iter().flatten() {
+        let only = std::env::var("BENCH_ONLY").unwrap_or_default();
+        if !hair.name.contains(&only) {
+            continue;
+        }
+        println!("{}: {} points", hair.name, hair.positions.len());
+        let strands = Strands {
+            offsets: &hair.offsets,
+            positions: &hair.positions,
+            radii: Radii::PerVertex(&hair.radii),
+        };
+        let mut rays = None;
+        for quality in [BuildQuality::Draft, BuildQuality::Standard, BuildQuality::Best] {
+            let mut options = BuildOptions::default();
+            options.quality = quality;
+            let tracer = Tracer::build(&[strands], &[], &options).unwrap();
+            let statistics = tracer.statistics();
+            let primary = camera_rays(&tracer, 500);
+            let (hits, seconds) = timed(|| {
+                primary.iter().filter_map(|ray| tracer.closest(ray, None)).collect::<Vec<_>>()
+            });
+            let secondary = bounces(&hits);
+            let (again, bounced) =
+                timed(|| secondary.iter().filter(|(r, p)| tracer.closest(r, Some(*p)).is_some()).count());
+            let (_, shadowed) =
+                timed(|| secondary.iter().filter(|(r, p)| tracer.occluded(r, Some(*p))).count());
+            println!(
+                "  wide {quality:?}: build {:.2} s, {:.1} MB, primary {:.2}, bounce {:.2}, any {:.2} Mrays/s ({} hits, {again} again)",
+                statistics.build_seconds,
+                statistics.bytes as f64 / 1e6,
+                primary.len() as f64 / seconds / 1e6,
+                secondary.len() as f64 / bounced / 1e6,
+                secondary.len() as f64 / shadowed / 1e6,
+                hits.len(),
+            );
+            rays = Some((primary, secondary));
+        }
+        let Some((primary, secondary)) = rays else { continue };
+        plain(&hair, &primary, &secondary);
+    }
+}
+
+/// `obvhs`'s own traversals, without the rules for leaving fibres.
+fn plain(hair: &Hair, primary: &[Ray], secondary: &[(Ray, Primitive)]) {
+    let ends: Vec<(Vec4, Vec4)> = hair
+        .offsets
+        .windows(2)
+        .flat_map(|o| (o[0] as usize)..(o[1].saturating_sub(1) as usize))
+        .map(|i| {
+            (hair.positions[i].extend(hair.radii[i]), hair.positions[i + 1].extend(hair.radii[i + 1]))
+        })
+        .collect();
+    let boxes: Vec<_> = ends.iter().map(|&(a, b)| bounds::of_segment(a, b)).collect();
+    let (binary, binary_build) =
+        timed(|| build_bvh2(&boxes, BvhBuildParams::medium_build(), &mut Duration::default()));
+    let (wide, wide_build) =
+        timed(|| build_cwbvh(&boxes, BvhBuildParams::medium_build(), &mut Duration::default()));
+    let binary_ends: Vec<_> = binary.primitive_indices.iter().map(|&i| ends[i as usize]).collect();
+    let wide_ends: Vec<_> = wide.primitive_indices.iter().map(|&i| ends[i as usize]).collect();
+    let test = |line: &Line, (a, b): (Vec4, Vec4)| match ConeSphere::new(a, b).entry(line) {
+        Some(entry) if entry.t > 0.0 => entry.t as f32,
+        _ => f32::INFINITY,
+    };
+    let convert = |ray: &Ray| {
+        let plain = obvhs::ray::Ray::new(ray.origin.into(), ray.direction.into(), 0.0, f32::INFINITY);
+        (plain, Line::of(ray))
+    };
+    let secondary: Vec<Ray> = secondary.iter().map(|(ray, _)| *ray).collect();
+    for (name, build) in [("Bvh2", binary_build), ("CwBvh", wide_build)] {
+        let rate = |rays: &[Ray], any: bool| {
+            let (_, seconds) = timed(|| {
+                for ray in rays {
+                    let (plain, line) = convert(ray);
+                    let mut hit = RayHit::none();
+                    black_box(match (name, any) {
+                        ("Bvh2", false) => binary
+                            .ray_traverse(plain, &mut hit, |_, i| test(&line, binary_ends[i])),
+                        ("Bvh2", true) => {
+                            binary.ray_traverse_miss(plain, |_, i| test(&line, binary_ends[i]))
+                        }
+                        (_, false) => {
+                            wide.ray_traverse(plain, &mut hit, |_, i| test(&line, wide_ends[i]))
+                        }
+                        (_, true) => {
+                            wide.ray_traverse_miss(plain, |_, i| test(&line, wide_ends[i]))
+                        }
+                    });
+                }
+            });
+            rays.len() as f64 / seconds / 1e6
+        };
+        println!(
+            "  obvhs {name}: build {build:.2} s, primary {:.2}, bounce {:.2}, any {:.2} Mrays/s",
+            rate(primary, false),
+            rate(&secondary, false),
+            rate(&secondary, true),
+        );
+    }
+}
+
