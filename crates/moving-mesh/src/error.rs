@@ -1,0 +1,60 @@
+//! What can be wrong with a mesh file.
+
+use std::io;
+use std::path::PathBuf;
+
+/// A mesh that could not be read.
+#[derive(Debug, thiserror::Error)]
+pub enum MeshError {
+    /// The system could not read the file, or a file it refers to.
+    #[error("{}: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// The file breaks its format's rules.
+    #[error("{}: {place}: {fault}", path.display())]
+    Invalid {
+        /// The file.
+        path: PathBuf,
+        /// Where in it, in the format's own terms.
+        place: String,
+        /// What was found and what would be right.
+        fault: String,
+    },
+    /// The file is sound but uses what groomkit does not read.
+    #[error("{}: {what} is not supported; {remedy}", path.display())]
+    Unsupported {
+        /// The file.
+        path: PathBuf,
+        /// What it uses.
+        what: String,
+        /// What to do instead.
+        remedy: &'static str,
+    },
+}
+
+/// A fault inside a file whose path the caller knows: place and fault, or unsupported.
+#[derive(Debug)]
+pub(crate) enum Fault {
+    Invalid { place: String, fault: String },
+    Unsupported { what: String, remedy: &'static str },
+    Io { path: PathBuf, source: io::Error },
+}
+
+impl Fault {
+    pub(crate) fn invalid(place: impl Into<String>, fault: impl Into<String>) -> Self {
+        Fault::Invalid { place: place.into(), fault: fault.into() }
+    }
+
+    pub(crate) fn in_file(self, path: &std::path::Path) -> MeshError {
+        let path = path.to_owned();
+        match self {
+            Fault::Invalid { place, fault } => MeshError::Invalid { path, place, fault },
+            Fault::Unsupported { what, remedy } => MeshError::Unsupported { path, what, remedy },
+            Fault::Io { path, source } => MeshError::Io { path, source },
+        }
+    }
+}
