@@ -1,1 +1,51 @@
-//! Groom files: one module and one feature per format, bytes to Groom and back.
+//! Groom files: one module and one feature per format, bytes to [`Groom`](groom::Groom) and back.
+//!
+//! | format | feature | read | write |
+//! |---|---|---|---|
+//! | HAIR (cyHair), `.hair` | `hair` | yes | yes |
+//! | [text](crate::text), `.txt` | `text` | yes | yes |
+//! | glTF, `.gltf` and `.glb` | `gltf` | | yes, as lines |
+//! | USD, `.usda` | `usda` | | yes, as linear BasisCurves |
+//!
+//! A reader keeps the file's numbers and says in the groom what they mean; a writer whose format
+//! fixes an axis or a unit converts them. What a format cannot hold comes back as a [`Warning`].
+//!
+//! ```
+//! use groom_formats::{ReadOptions, WriteOptions};
+//! # let folder = tempfile::tempdir()?;
+//! # let (text, usd) = (folder.path().join("lock.txt"), folder.path().join("lock.usda"));
+//! # std::fs::write(&text, "0 0 0 0.05\n0 0 1 0.03\n")?;
+//! let loaded = groom_formats::read(&text, &ReadOptions::default())?;
+//! assert_eq!((loaded.groom.strand_count(), loaded.groom.point_count()), (1, 2));
+//! let warnings = groom_formats::write(&loaded.groom, &usd, &WriteOptions::default())?;
+//! assert!(warnings.is_empty());
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod check;
+#[cfg(any(feature = "gltf", feature = "usda"))]
+mod drawable;
+mod error;
+mod format;
+#[cfg(feature = "gltf")]
+mod gltf;
+#[cfg(feature = "hair")]
+mod hair;
+#[cfg(any(feature = "text", feature = "usda"))]
+mod numbers;
+mod options;
+mod read;
+#[cfg(feature = "text")]
+pub mod text;
+mod unstored;
+#[cfg(feature = "usda")]
+mod usda;
+mod warning;
+mod write;
+
+pub use error::FormatError;
+pub use format::Format;
+pub use options::{HairExtras, Loaded, ReadOptions, WriteOptions};
+pub use read::{read, read_from};
+pub use warning::Warning;
+pub use write::{write, write_to};

@@ -1,0 +1,81 @@
+//! Numbers as the shortest text that reads back to the same bits.
+
+use std::io::{self, Write};
+
+/// Text is handed on in pieces of about this many bytes.
+const PIECE: usize = 1 << 16;
+
+/// Gathers text in memory and hands it to a stream in large pieces.
+pub(crate) struct TextOut<'a, W: Write> {
+    stream: &'a mut W,
+    text: Vec<u8>,
+    digits: zmij::Buffer,
+}
+
+impl<'a, W: Write> TextOut<'a, W> {
+    pub(crate) fn new(stream: &'a mut W) -> Self {
+        TextOut { stream, text: Vec::with_capacity(PIECE + 1024), digits: zmij::Buffer::new() }
+    }
+
+    #[inline]
+    pub(crate) fn push(&mut self, text: &[u8]) {
+        self.text.extend_from_slice(text);
+    }
+
+    /// A finite number; `1.0` becomes `1`, and `-0.0` stays `-0`.
+    #[inline]
+    pub(crate) fn float(&mut self, value: f32) {
+        push_shortest(&mut self.text, self.digits.format_finite(value));
+    }
+
+    /// `values` with `between` between them.
+    #[inline]
+    pub(crate) fn floats(&mut self, values: &[f32], between: &[u8]) {
+        for (i, &value) in values.iter().enumerate() {
+            if i > 0 {
+                self.push(between);
+            }
+            self.float(value);
+        }
+    }
+
+    /// Hands the text on once there is enough of it.
+    #[inline]
+    pub(crate) fn hand_on(&mut self) -> io::Result<()> {
+        if self.text.len() >= PIECE { self.finish() } else { Ok(()) }
+    }
+
+    pub(crate) fn finish(&mut self) -> io::Result<()> {
+        self.stream.write_all(&self.text)?;
+        self.text.clear();
+        Ok(())
+    }
+}
+
+#[inline]
+fn push_shortest(text: &mut Vec<u8>, digits: &str) {
+    text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn text_of(value: f32) -> String {
+        let mut bytes = Vec::new();
+        let mut out = TextOut::new(&mut bytes);
+        out.float(value);
+        out.finish().unwrap();
+        String::from_utf8(bytes).unwrap()
+    }
+
+    #[test]
+    fn shortest_and_back() {
+        for (value, text) in [(1.0, "1"), (-0.0, "-0"), (0.1, "0.1"), (-2.5, "-2.5")] {
+            assert_eq!(text_of(value), text);
+        }
+        for value in [f32::MIN_POSITIVE, f32::MAX, f32::from_bits(1), 1e-7, 1e16, 123_456_790.0, 10.0, 0.3] {
+            assert_eq!(text_of(value).parse::<f32>().unwrap().to_bits(), value.to_bits(), "{value}");
+        }
+    }
+}

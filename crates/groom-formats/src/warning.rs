@@ -1,0 +1,108 @@
+//! What was lost or odd on the way, without stopping it.
+
+use groom::UpAxis;
+
+use crate::Format;
+
+/// Something a format cannot hold, or something odd in a file that was read all the same.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum Warning {
+    /// The HAIR file is odd.
+    #[cfg(feature = "hair")]
+    #[error("{0}")]
+    Hair(cyhair::Warning),
+    /// Lines of a text file have more numbers than there are meanings for.
+    #[error("{found} numbers a line (from line {line}); those after the first {used} are not read")]
+    ExtraColumns {
+        /// First line with them.
+        line: u64,
+        /// Numbers on it.
+        found: usize,
+        /// Numbers that were read.
+        used: usize,
+    },
+    /// Lines of a text file have a position and nothing else.
+    #[error("no radius in the file; {radius} is used")]
+    NoRadius {
+        /// The radius every strand got.
+        radius: f32,
+    },
+    /// The format has no place for an attribute.
+    #[error("{format} cannot hold the attribute `{name}`; it is left out")]
+    AttributeLeftOut {
+        /// The format written.
+        format: Format,
+        /// The attribute's name.
+        name: String,
+    },
+    /// The attribute is written under another name.
+    #[error("{format} calls the attribute `{name}` `{written}`")]
+    AttributeRenamed {
+        /// The format written.
+        format: Format,
+        /// The attribute's name in the groom.
+        name: String,
+        /// Its name in the file.
+        written: String,
+    },
+    /// The columns of the format come in an order, and an earlier one had to be made up.
+    #[error("{format} cannot hold transparency without colour; white is written")]
+    ColorMadeUp {
+        /// The format written.
+        format: Format,
+    },
+    /// The format has no up axis, and readers take another one for granted.
+    #[error("{format} does not say which way is up, and {} is taken for granted; this groom is {}-up", name(.usual), name(.groom))]
+    UpAxisNotStored {
+        /// The format written.
+        format: Format,
+        /// What readers assume.
+        usual: UpAxis,
+        /// What the groom is.
+        groom: UpAxis,
+    },
+    /// The format has no unit, and the groom's is not the metre.
+    #[error("{format} cannot say that a unit is {meters_per_unit} m; keep it beside the file")]
+    UnitNotStored {
+        /// The format written.
+        format: Format,
+        /// The groom's unit in metres.
+        meters_per_unit: f64,
+    },
+    /// Strands of one point have no line to draw.
+    #[error("{format} cannot hold strands of one point; {strands} are left out")]
+    OnePointStrandsLeftOut {
+        /// The format written.
+        format: Format,
+        /// How many.
+        strands: usize,
+    },
+    /// Values outside what the format can hold were moved to its ends.
+    #[error("{format} holds {name} from 0 to 1; {values} values are clamped")]
+    Clamped {
+        /// The format written.
+        format: Format,
+        /// The attribute's name.
+        name: &'static str,
+        /// How many points it happened to.
+        values: usize,
+    },
+    /// Values were rounded to fewer bits than the groom has.
+    #[error("{format} holds {name} in 8 bits; it is off by up to {error:.1e}")]
+    Rounded {
+        /// The format written.
+        format: Format,
+        /// The attribute's name.
+        name: &'static str,
+        /// The largest difference, on the attribute's own scale.
+        error: f32,
+    },
+}
+
+fn name(axis: &UpAxis) -> &'static str {
+    match axis {
+        UpAxis::Y => "y",
+        UpAxis::Z => "z",
+    }
+}

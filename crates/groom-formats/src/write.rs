@@ -1,0 +1,104 @@
+//! From a groom to a path or a stream.
+
+use std::io::{BufWriter, Write};
+use std::path::Path;
+
+use groom::Groom;
+use whole_file::WholeFile;
+
+use crate::{Format, FormatError, Warning, WriteOptions, check, read};
+
+/// Bytes gathered before the system is asked to write them.
+const BUFFER: usize = 1 << 20;
+
+/// Writes `groom` to `path` in the format its ending names: the whole file or nothing.
+///
+/// Returns what the format could not hold. `.gltf` writes two files, the bytes first.
+///
+/// # Errors
+/// [`FormatError`]; the old file at `path`, if any, is then untouched.
+pub fn write(groom: &Groom, path: &Path, options: &WriteOptions) -> Result<Vec<Warning>, FormatError> {
+    let name = path.display().to_string();
+    let format = Format::from_path(path).ok_or_else(|| FormatError::UnknownFormat {
+        file: name.clone(),
+        expected: read::endings(Format::can_write),
+    })?;
+    if format == Format::Gltf {
+        return write_gltf(groom, path, &name);
+    }
+    whole(path, &name, |stream| write_to(format, groom, stream, &name, options))
+}
+
+/// Writes `groom` to a stream; `name` stands for it in messages.
+///
+/// The stream need not be buffered; what is written before an error stays written.
+///
+/// # Errors
+/// [`FormatError`], also for a format that is more than one stream ([`Format::streams`]).
+pub fn write_to(
+    format: Format,
+    groom: &Groom,
+    stream: impl Write,
+    name: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
+    check::values(groom, name)?;
+    let mut stream = BufWriter::with_capacity(BUFFER, stream);
+    let warnings = match format {
+        #[cfg(feature = "hair")]
+        Format::Hair => crate::hair::write(groom, &mut stream, name, options)?,
+        #[cfg(feature = "text")]
+        Format::Text => crate::text::write(groom, &mut stream, name)?,
+        #[cfg(feature = "gltf")]
+        Format::Glb => crate::gltf::write_glb(groom, &mut stream, name)?,
+        #[cfg(feature = "usda")]
+        Format::Usda => crate::usda::write(groom, &mut stream, name)?,
+        other => return Err(unwritable(other, name)),
+    };
+    stream.flush().map_err(|e| FormatError::io(name, e))?;
+    let _ = options; // only HAIR has any
+    Ok(warnings)
+}
+
+#[cfg(feature = "gltf")]
+fn write_gltf(groom: &Groom, path: &Path, name: &str) -> Result<Vec<Warning>, FormatError> {
+    check::values(groom, name)?;
+    let bytes_path = path.with_extension("bin");
+    let bytes_name = bytes_path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let plan = crate::gltf::Plan::new(groom, Format::Gltf, name)?;
+    whole(&bytes_path, &bytes_path.display().to_string(), |stream| {
+        plan.write_bytes(stream).map_err(|e| FormatError::io(name, e))
+    })?;
+    whole(path, name, |stream| {
+        let json = plan.json(Some(&bytes_name)).map_err(|e| FormatError::io(name, e))?;
+        stream.write_all(&json).map_err(|e| FormatError::io(name, e))
+    })?;
+    Ok(plan.into_warnings())
+}
+
+#[cfg(not(feature = "gltf"))]
+fn write_gltf(_: &Groom, _: &Path, name: &str) -> Result<Vec<Warning>, FormatError> {
+    Err(unwritable(Format::Gltf, name))
+}
+
+/// Runs `body` on a buffered file that takes its name only when all went well.
+fn whole<T>(
+    path: &Path,
+    name: &str,
+    body: impl FnOnce(&mut BufWriter<WholeFile>) -> Result<T, FormatError>,
+) -> Result<T, FormatError> {
+    let fault = |source| FormatError::WholeFile { source };
+    let mut stream = BufWriter::with_capacity(BUFFER, WholeFile::create(path).map_err(fault)?);
+    let done = body(&mut stream)?;
+    let file = stream.into_inner().map_err(|e| FormatError::io(name, e.into_error()))?;
+    file.commit().map_err(fault)?;
+    Ok(done)
+}
+
+fn unwritable(format: Format, name: &str) -> FormatError {
+    let what = match format {
+        Format::Gltf if format.can_write() => "is two files and fits in no stream; use glb",
+        _ => "is not built into this program (a cargo feature is off)",
+    };
+    FormatError::Unsupported { file: name.to_owned(), format, what }
+}
