@@ -67,6 +67,10 @@ impl Environment {
         self
     }
 
+    pub(crate) fn turn_to(&mut self, angle: f32) {
+        self.rotation = angle;
+    }
+
     /// The same light, `factor` times as bright (at least 0).
     #[must_use]
     pub fn scaled(mut self, factor: f32) -> Self {

@@ -1,6 +1,20 @@
 //! From a scene to a frame.
 
-use crate::{Camera, Frame, Progress, RenderError, RenderSettings, Scene};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::time::Instant;
+
+use glam::Vec3;
+use rayon::prelude::*;
+
+use crate::camera::Lens;
+use crate::film::{Developed, Pixel};
+use crate::filter::Filter;
+use crate::path::{PathTracer, RayCounts};
+use crate::sampler::Sampler;
+use crate::{Background, Camera, Frame, FrameReport, Progress, RenderError, RenderSettings, Scene};
+
+/// Pixels along a tile's edge: small enough that the last tiles keep every core busy.
+const TILE: u32 = 16;
 
 /// Renders a frame on all cores (or `settings.threads`).
 ///
@@ -8,11 +22,149 @@ use crate::{Camera, Frame, Progress, RenderError, RenderSettings, Scene};
 /// [`RenderError::Argument`] for settings out of range, [`RenderError::Threads`], or
 /// [`RenderError::Cancelled`] when `progress` asks to stop.
 pub fn render(
-    _scene: &Scene,
-    _camera: &Camera,
+    scene: &Scene,
+    camera: &Camera,
     settings: &RenderSettings,
-    _progress: &dyn Progress,
+    progress: &dyn Progress,
 ) -> Result<Frame, RenderError> {
     settings.check()?;
-    Err(RenderError::Cancelled)
+    let start = Instant::now();
+    let threads = settings.threads.unwrap_or(0);
+    let pool = rayon::ThreadPoolBuilder::new()
+        .num_threads(threads)
+        .build()
+        .map_err(|fault| RenderError::Threads { threads, reason: fault.to_string() })?;
+    let work = Work {
+        scene,
+        settings,
+        lens: camera.lens(scene.center(), settings.width, settings.height),
+        filter: Filter::new(settings.filter_radius),
+        progress,
+        done: AtomicU64::new(0),
+        total: u64::from(settings.width.div_ceil(TILE)) * u64::from(settings.height.div_ceil(TILE)),
+    };
+    let tiles: Result<Vec<Tile>, RenderError> =
+        pool.install(|| (0..work.total).into_par_iter().map(|index| work.tile(index)).collect());
+    let mut frame = assemble(settings, &tiles?);
+    frame.report.threads = pool.current_num_threads();
+    frame.report.seconds = start.elapsed().as_secs_f64();
+    Ok(frame)
+}
+
+struct Work<'a> {
+    scene: &'a Scene,
+    settings: &'a RenderSettings,
+    lens: Lens,
+    filter: Filter,
+    progress: &'a dyn Progress,
+    done: AtomicU64,
+    total: u64,
+}
+
+/// A square of finished pixels.
+struct Tile {
+    x: u32,
+    y: u32,
+    width: u32,
+    pixels: Vec<Developed>,
+    rays: RayCounts,
+    rejected: u64,
+}
+
+impl Work<'_> {
+    fn tile(&self, index: u64) -> Result<Tile, RenderError> {
+        let across = u64::from(self.settings.width.div_ceil(TILE));
+        let (x, y) = ((index % across) as u32 * TILE, (index / across) as u32 * TILE);
+        let width = TILE.min(self.settings.width - x);
+        let height = TILE.min(self.settings.height - y);
+        let mut paths = PathTracer::new(self.scene, self.settings);
+        let mut pixels = Vec::with_capacity((width * height) as usize);
+        let mut rejected = 0;
+        for row in y..y + height {
+            for column in x..x + width {
+                if self.progress.cancelled() {
+                    return Err(RenderError::Cancelled);
+                }
+                let pixel = self.pixel(&mut paths, column, row);
+                rejected += u64::from(pixel.rejected);
+                pixels.push(pixel.develop());
+            }
+        }
+        let done = self.done.fetch_add(1, Ordering::Relaxed) + 1;
+        self.progress.advance(done, self.total);
+        Ok(Tile { x, y, width, pixels, rays: paths.rays, rejected })
+    }
+
+    /// All samples of a pixel, always in the same order.
+    fn pixel(&self, paths: &mut PathTracer, x: u32, y: u32) -> Pixel {
+        let mut pixel = Pixel::default();
+        let second = self.settings.spp / 2;
+        for (half, count) in [(0, self.settings.spp - second), (1, second)] {
+            for index in 0..count {
+                let sampler = Sampler::new(self.settings.seed, x, y, half, index);
+                let [u, v, ..] = PathTracer::camera_numbers(&sampler);
+                let film_x = x as f32 + 0.5 + self.filter.sample(u);
+                let film_y = y as f32 + 0.5 + self.filter.sample(v);
+                let direction = self.lens.direction(film_x, film_y);
+                pixel.add(half as usize, &paths.trace(self.lens.origin, direction, &sampler));
+            }
+        }
+        pixel
+    }
+}
+
+fn assemble(settings: &RenderSettings, tiles: &[Tile]) -> Frame {
+    let (width, height) = (settings.width, settings.height);
+    let count = width as usize * height as usize;
+    let mut beauty = vec![Vec3::ZERO; count];
+    let mut alpha = vec![0.0; count];
+    let mut passes: Vec<_> = settings.aovs.iter().map(|aov| (aov, vec![Vec3::ZERO; count])).collect();
+    let mut error = ErrorEstimate::default();
+    for tile in tiles {
+        for (i, pixel) in tile.pixels.iter().enumerate() {
+            let x = tile.x as usize + i % tile.width as usize;
+            let y = tile.y as usize + i / tile.width as usize;
+            let at = y * width as usize + x;
+            beauty[at] = pixel.beauty;
+            alpha[at] = pixel.alpha;
+            for (aov, pixels) in &mut passes {
+                pixels[at] = pixel.parts[*aov as usize];
+            }
+            if pixel.alpha > 0.0 || settings.background == Background::Visible {
+                error.add(pixel.relative_variance);
+            }
+        }
+    }
+    let rel_mse = if settings.spp >= 2 { Some(error.mean()) } else { None };
+    let report = FrameReport {
+        seconds: 0.0,
+        spp: settings.spp,
+        seed: settings.seed,
+        threads: 0,
+        samples: count as u64 * u64::from(settings.spp),
+        closest_rays: tiles.iter().map(|t| t.rays.closest).sum(),
+        shadow_rays: tiles.iter().map(|t| t.rays.shadow).sum(),
+        rejected_samples: tiles.iter().map(|t| t.rejected).sum(),
+        rel_mse,
+        relative_error: rel_mse.map(f64::sqrt),
+    };
+    Frame { width, height, beauty, alpha, passes, report }
+}
+
+/// Mean of the pixels' relative variances; 0 for a picture without a covered pixel.
+#[derive(Default)]
+struct ErrorEstimate {
+    sum: f64,
+    pixels: u64,
+}
+
+impl ErrorEstimate {
+    fn add(&mut self, relative_variance: Option<f64>) {
+        self.sum += relative_variance.unwrap_or(0.0);
+        self.pixels += 1;
+    }
+
+    fn mean(&self) -> f64 {
+        self.sum / self.pixels.max(1) as f64
+    }
 }

@@ -1,12 +1,20 @@
 //! A scene ready to be traced: one world, one unit, one centre.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use groom::{FloatView, Groom, UpAxis};
+use strand_tracing::{BuildOptions, Radii, Strands, Tracer, Triangles};
 
-use crate::{Bounds, RenderError, SceneDescription};
+use crate::fibres::Fibres;
+use crate::lights::Lights;
+use crate::{Bounds, HairObject, MeshObject, RenderError, SceneDescription};
 
 /// A scene ready to be rendered, any number of times and from any number of threads.
 #[derive(Debug)]
 pub struct Scene {
+    pub(crate) tracer: Tracer,
+    pub(crate) fibres: Vec<Fibres>,
+    pub(crate) albedos: Vec<Vec3>,
+    pub(crate) lights: Lights,
     bounds: Option<Bounds>,
     center: DVec3,
 }
@@ -17,8 +25,32 @@ impl Scene {
     ///
     /// # Errors
     /// [`RenderError::Argument`], [`RenderError::Scattering`] or [`RenderError::Tracing`].
-    pub fn build(_description: SceneDescription) -> Result<Self, RenderError> {
-        Ok(Scene { bounds: None, center: DVec3::ZERO })
+    pub fn build(description: SceneDescription) -> Result<Self, RenderError> {
+        let SceneDescription { hair, meshes, environment, lights } = description;
+        lights.iter().try_for_each(|light| light.check())?;
+        for object in &hair {
+            let unit = object.groom.meters_per_unit;
+            if !(unit > 0.0 && unit.is_finite()) {
+                return Err(RenderError::argument("metres per unit", unit, "above 0"));
+            }
+        }
+        let bounds = bounds_of(&hair, &meshes);
+        let center = bounds.map_or(DVec3::ZERO, |b| b.center());
+        let fibres: Result<Vec<_>, _> = hair
+            .iter()
+            .enumerate()
+            .map(|(index, object)| Fibres::new(index, &object.groom, &object.material))
+            .collect();
+        let mut albedos = Vec::with_capacity(meshes.len());
+        for mesh in &meshes {
+            if !(mesh.albedo.min_element() >= 0.0 && mesh.albedo.max_element() <= 1.0) {
+                return Err(RenderError::argument("mesh albedo", mesh.albedo, "0..1"));
+            }
+            albedos.push(mesh.albedo);
+        }
+        let tracer = build_tracer(&hair, &meshes, center)?;
+        let lights = Lights::new(environment, &lights, center);
+        Ok(Scene { tracer, fibres: fibres?, albedos, lights, bounds, center })
     }
 
     /// The box about all hair and meshes in world metres; `None` when there is nothing.
@@ -32,4 +64,80 @@ impl Scene {
     pub fn center(&self) -> DVec3 {
         self.center
     }
+
+    /// Counts, bytes and seconds of the tree over strands and triangles.
+    #[must_use]
+    pub fn tracing_statistics(&self) -> &strand_tracing::Statistics {
+        self.tracer.statistics()
+    }
+
+    /// Turns the environment to stand at `angle` radians (see [`crate::Environment::rotated`]) without
+    /// building anything again, as a turntable of light wants it.
+    pub fn turn_environment(&mut self, angle: f32) {
+        self.lights.turn_environment(angle);
+    }
+}
+
+/// Turns a groom's numbers into world metres, Y up.
+fn to_world(groom: &Groom, point: Vec3) -> DVec3 {
+    groom.up_axis.rotate(point, UpAxis::Y).as_dvec3() * groom.meters_per_unit
+}
+
+fn bounds_of(hair: &[HairObject], meshes: &[MeshObject]) -> Option<Bounds> {
+    let of_hair = hair.iter().filter_map(|object| {
+        Bounds::of_points(object.groom.positions().iter().map(|&p| to_world(&object.groom, p)))
+    });
+    let of_meshes =
+        meshes.iter().filter_map(|m| Bounds::of_points(m.mesh.positions.iter().map(|p| p.as_dvec3())));
+    of_hair.chain(of_meshes).reduce(Bounds::union)
+}
+
+/// Positions about the centre, in metres; the subtraction is done where it loses nothing.
+fn recentred(groom: &Groom, center: DVec3) -> Vec<Vec3> {
+    groom.positions().iter().map(|&p| (to_world(groom, p) - center).as_vec3()).collect()
+}
+
+enum OwnRadii {
+    Constant(f32),
+    PerVertex(Vec<f32>),
+}
+
+fn radii_of(groom: &Groom) -> OwnRadii {
+    let scale = |radius: f32| (f64::from(radius) * groom.meters_per_unit) as f32;
+    match groom.radii() {
+        FloatView::Constant(radius) => OwnRadii::Constant(scale(radius)),
+        FloatView::Vertex(radii) => OwnRadii::PerVertex(radii.iter().copied().map(scale).collect()),
+        FloatView::Strand(radii) => OwnRadii::PerVertex(
+            (0..groom.strand_count())
+                .flat_map(|i| std::iter::repeat_n(scale(radii[i]), groom.strand_range(i).len()))
+                .collect(),
+        ),
+    }
+}
+
+fn build_tracer(hair: &[HairObject], meshes: &[MeshObject], center: DVec3) -> Result<Tracer, RenderError> {
+    let points: Vec<Vec<Vec3>> = hair.iter().map(|object| recentred(&object.groom, center)).collect();
+    let radii: Vec<OwnRadii> = hair.iter().map(|object| radii_of(&object.groom)).collect();
+    let strands: Vec<Strands> = hair
+        .iter()
+        .zip(points.iter().zip(&radii))
+        .map(|(object, (positions, radii))| Strands {
+            offsets: object.groom.offsets(),
+            positions,
+            radii: match radii {
+                OwnRadii::Constant(radius) => Radii::Constant(*radius),
+                OwnRadii::PerVertex(radii) => Radii::PerVertex(radii),
+            },
+        })
+        .collect();
+    let vertices: Vec<Vec<Vec3>> = meshes
+        .iter()
+        .map(|m| m.mesh.positions.iter().map(|p| (p.as_dvec3() - center).as_vec3()).collect())
+        .collect();
+    let triangles: Vec<Triangles> = meshes
+        .iter()
+        .zip(&vertices)
+        .map(|(m, positions)| Triangles { positions, indices: &m.mesh.triangles })
+        .collect();
+    Ok(Tracer::build(&strands, &triangles, &BuildOptions::default())?)
 }

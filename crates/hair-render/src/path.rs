@@ -1,0 +1,300 @@
+//! One path of light, from the camera to where it ends.
+
+use glam::Vec3;
+use strand_tracing::{Hit, HitKind, Primitive, Ray};
+
+use crate::fibres::FibreHit;
+use crate::sampler::Sampler;
+use crate::surface::SurfaceHit;
+use crate::{Background, LightSampling, RenderSettings, Scene};
+
+/// Passes a sample is kept apart by: the four lobes, surface, background (the order of `Aov::ALL`).
+pub(crate) const PARTS: usize = 6;
+const SURFACE: usize = 4;
+const BACKGROUND: usize = 5;
+
+/// What one camera path found.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct PathLight {
+    pub parts: [Vec3; PARTS],
+    pub alpha: f32,
+}
+
+/// Rays traced, by kind.
+#[derive(Clone, Copy, Debug, Default)]
+pub(crate) struct RayCounts {
+    pub closest: u64,
+    pub shadow: u64,
+}
+
+/// Traces paths through one scene.
+pub(crate) struct PathTracer<'a> {
+    scene: &'a Scene,
+    settings: &'a RenderSettings,
+    next_event: bool,
+    transparent_hair: bool,
+    pub rays: RayCounts,
+}
+
+/// What a ray met, ready to scatter.
+enum Vertex {
+    Fibre(Box<FibreHit>),
+    Surface(SurfaceHit),
+}
+
+/// A scattering value: a lobe each for a fibre, the first entry alone for a surface.
+type Values = [Vec3; 4];
+
+fn sum(values: &Values) -> Vec3 {
+    values[0] + values[1] + values[2] + values[3]
+}
+
+/// Dimension sets of the sampler; each scattering uses three.
+const CAMERA_SET: u32 = 0;
+
+fn sets_of(depth: u32) -> [u32; 3] {
+    [1 + 3 * depth, 2 + 3 * depth, 3 + 3 * depth]
+}
+
+impl<'a> PathTracer<'a> {
+    pub fn new(scene: &'a Scene, settings: &'a RenderSettings) -> Self {
+        let next_event = settings.light_sampling != LightSampling::ScatteringOnly && scene.lights.shine();
+        let transparent_hair = scene.fibres.iter().any(|f| f.may_be_passed());
+        PathTracer { scene, settings, next_event, transparent_hair, rays: RayCounts::default() }
+    }
+
+    /// The numbers that place a sample on the film.
+    pub fn camera_numbers(sampler: &Sampler) -> [f32; 4] {
+        sampler.four(CAMERA_SET)
+    }
+
+    /// The light that comes back along a camera ray.
+    pub fn trace(&mut self, origin: Vec3, direction: Vec3, sampler: &Sampler) -> PathLight {
+        let mut light = PathLight::default();
+        let ray = Ray { origin, direction, t_max: f32::INFINITY };
+        let Some(hit) = self.closest(ray, None, sampler, CAMERA_SET) else {
+            if self.settings.background == Background::Visible {
+                light.parts[BACKGROUND] = self.scene.lights.environment_radiance(direction);
+                light.alpha = 1.0;
+            }
+            return light;
+        };
+        light.alpha = 1.0;
+        let (first, values) = self.scatter_on(hit, direction, sampler);
+        match first {
+            FirstKind::Fibre => light.parts[..4].copy_from_slice(&values),
+            FirstKind::Surface => light.parts[SURFACE] = values[0],
+        }
+        light
+    }
+
+    /// Follows the path from its first hit. The first scattering keeps its lobes apart; all that comes
+    /// after it is found once and shared by them, so that the parts add up and none is noisier than
+    /// the whole.
+    fn scatter_on(&mut self, first_hit: Hit, first_direction: Vec3, sampler: &Sampler) -> (FirstKind, Values) {
+        let (mut hit, mut direction) = (first_hit, first_direction);
+        let mut kind = None;
+        let mut direct: Values = [Vec3::ZERO; 4];
+        let mut weights: Values = [Vec3::ZERO; 4];
+        let mut later = Vec3::ZERO;
+        // Relative to the first scattering, whose weight `first_weight` holds.
+        let mut throughput = Vec3::ONE;
+        let mut first_weight = Vec3::ONE;
+        for depth in 0.. {
+            let [scatter_set, light_set, pass_set] = sets_of(depth);
+            let vertex = self.vertex(&hit, -direction);
+            let kind = kind.get_or_insert(match vertex {
+                Vertex::Fibre(_) => FirstKind::Fibre,
+                Vertex::Surface(_) => FirstKind::Surface,
+            });
+            let [pick, u, v, survive] = sampler.four(light_set);
+            let start = vertex.start(&hit);
+            if self.next_event {
+                let found = self.next_event(&vertex, start, hit.primitive, [pick, u, v], sampler, pass_set);
+                if let Some(found) = found {
+                    if depth == 0 {
+                        direct = found;
+                    } else {
+                        later += throughput * sum(&found);
+                    }
+                }
+            }
+            let Some((wi, values, pdf)) = vertex.sample(sampler.four(scatter_set)) else { break };
+            if depth == 0 {
+                weights = values.map(|value| value / pdf);
+                first_weight = sum(&weights);
+            } else {
+                throughput *= sum(&values) / pdf;
+            }
+            if depth >= self.settings.roulette_start {
+                let chance = (throughput * first_weight).max_element().min(1.0);
+                if survive >= chance {
+                    break;
+                }
+                throughput /= chance;
+            }
+            if (throughput * first_weight).max_element() <= 0.0 {
+                break;
+            }
+            let ray = Ray { origin: start, direction: wi, t_max: f32::INFINITY };
+            let next = self.closest(ray, Some(hit.primitive), sampler, pass_set);
+            later += throughput * self.emitted(&ray, pdf, next.as_ref());
+            match next {
+                Some(next) if depth < self.settings.max_bounces => (hit, direction) = (next, wi),
+                _ => {
+                    let _ = kind;
+                    break;
+                }
+            }
+        }
+        let total = std::array::from_fn(|lobe| direct[lobe] + weights[lobe] * later);
+        (kind.unwrap_or(FirstKind::Surface), total)
+    }
+
+    fn vertex(&self, hit: &Hit, toward: Vec3) -> Vertex {
+        match (hit.kind, hit.primitive) {
+            (HitKind::Segment { tangent, h, .. }, Primitive::Segment { object, .. }) => {
+                let material = self.scene.fibres[object as usize].material(hit);
+                Vertex::Fibre(Box::new(FibreHit::new(&material, tangent, h, toward)))
+            }
+            (HitKind::Triangle { normal, .. }, Primitive::Triangle { object, .. }) => {
+                Vertex::Surface(SurfaceHit::new(self.scene.albedos[object as usize], normal, toward))
+            }
+            // A hit of one kind on a primitive of the other does not exist; it would be black.
+            (_, _) => Vertex::Surface(SurfaceHit::new(Vec3::ZERO, toward, toward)),
+        }
+    }
+
+    /// Light found by choosing a place on a light, weighed against finding it by scattering.
+    fn next_event(
+        &mut self,
+        vertex: &Vertex,
+        start: Vec3,
+        leaving: Primitive,
+        numbers: [f32; 3],
+        sampler: &Sampler,
+        pass_set: u32,
+    ) -> Option<Values> {
+        let seen = self.scene.lights.sample(start, numbers)?;
+        let (values, scatter_pdf) = vertex.evaluate(seen.direction);
+        if sum(&values).max_element() <= 0.0 || seen.radiance.max_element() <= 0.0 {
+            return None;
+        }
+        let ray = Ray { origin: start, direction: seen.direction, t_max: seen.distance };
+        if self.hidden(ray, leaving, sampler, pass_set) {
+            return None;
+        }
+        let weight = match self.settings.light_sampling {
+            LightSampling::Both => power_heuristic(seen.pdf, scatter_pdf),
+            _ => 1.0,
+        };
+        let light = seen.radiance * (weight / seen.pdf);
+        Some(values.map(|value| value * light))
+    }
+
+    /// Light met by a scattered ray, weighed against finding it by choosing a place on the light.
+    fn emitted(&self, ray: &Ray, scatter_pdf: f32, hit: Option<&Hit>) -> Vec3 {
+        let mut found = Vec3::ZERO;
+        let sampling = self.settings.light_sampling;
+        if sampling == LightSampling::LightsOnly {
+            return found;
+        }
+        self.scene.lights.along(ray.origin, ray.direction, hit.map(|h| h.t), |radiance, light_pdf| {
+            let weight = match sampling {
+                LightSampling::Both => power_heuristic(scatter_pdf, light_pdf),
+                _ => 1.0,
+            };
+            found += radiance * weight;
+        });
+        found
+    }
+
+    /// The next thing in the way, passing fibres as their transparency has it.
+    fn closest(&mut self, ray: Ray, leaving: Option<Primitive>, sampler: &Sampler, set: u32) -> Option<Hit> {
+        self.rays.closest += 1;
+        let hit = self.scene.tracer.closest(&ray, leaving)?;
+        if !self.transparent_hair {
+            return Some(hit);
+        }
+        self.pass_through(ray, hit, sampler, set)
+    }
+
+    fn pass_through(&mut self, ray: Ray, hit: Hit, sampler: &Sampler, set: u32) -> Option<Hit> {
+        let (mut hit, mut passed) = (hit, 0.0);
+        for count in 0.. {
+            let Primitive::Segment { object, .. } = hit.primitive else { break };
+            let chance = self.scene.fibres[object as usize].transparency(&hit);
+            if sampler.plain(set, count) >= chance {
+                break;
+            }
+            passed += hit.t;
+            let onward = Ray { origin: hit.position, t_max: ray.t_max - passed, ..ray };
+            self.rays.closest += 1;
+            hit = self.scene.tracer.closest(&onward, Some(hit.primitive))?;
+        }
+        Some(Hit { t: hit.t + passed, ..hit })
+    }
+
+    fn hidden(&mut self, ray: Ray, leaving: Primitive, sampler: &Sampler, set: u32) -> bool {
+        if self.transparent_hair {
+            // Other numbers than the scattered ray's: the two must not share their luck.
+            return self.closest(ray, Some(leaving), sampler, set | 1 << 31).is_some();
+        }
+        self.rays.shadow += 1;
+        self.scene.tracer.occluded(&ray, Some(leaving))
+    }
+}
+
+/// What the camera met first.
+#[derive(Clone, Copy, Debug)]
+enum FirstKind {
+    Fibre,
+    Surface,
+}
+
+impl Vertex {
+    /// Where scattered rays start: on a fibre at the hit (the tracer knows which fibre is left), off a
+    /// surface by a few units in the last place, so that its neighbour triangles are not hit.
+    fn start(&self, hit: &Hit) -> Vec3 {
+        match self {
+            Vertex::Fibre(_) => hit.position,
+            Vertex::Surface(surface) => {
+                let size = hit.position.abs().max_element().max(1e-6);
+                hit.position + surface.normal() * (size * 4.0 * f32::EPSILON)
+            }
+        }
+    }
+
+    fn evaluate(&self, wi: Vec3) -> (Values, f32) {
+        match self {
+            Vertex::Fibre(fibre) => {
+                let (values, pdf) = fibre.scatter().evaluate_with_pdf(fibre.to_fibre(wi));
+                (values.0, pdf)
+            }
+            Vertex::Surface(surface) => {
+                let (value, pdf) = surface.evaluate(wi);
+                ([value, Vec3::ZERO, Vec3::ZERO, Vec3::ZERO], pdf)
+            }
+        }
+    }
+
+    fn sample(&self, numbers: [f32; 4]) -> Option<(Vec3, Values, f32)> {
+        match self {
+            Vertex::Fibre(fibre) => {
+                let sample = fibre.scatter().sample(numbers)?;
+                Some((fibre.to_world(sample.wi), sample.values.0, sample.pdf))
+            }
+            Vertex::Surface(surface) => {
+                let wi = surface.sample(numbers[0], numbers[1]);
+                let (value, pdf) = surface.evaluate(wi);
+                (pdf > 0.0).then_some((wi, [value, Vec3::ZERO, Vec3::ZERO, Vec3::ZERO], pdf))
+            }
+        }
+    }
+}
+
+/// Veach's power heuristic with exponent 2, for one sample of each kind.
+fn power_heuristic(mine: f32, other: f32) -> f32 {
+    let ratio = other / mine;
+    1.0 / (1.0 + ratio * ratio)
+}
