@@ -203,7 +203,8 @@ fn short_header(found: u64) -> HairError {
     HairError::Truncated { field, offset, expected, found: found - offset }
 }
 
-fn read_array<R: Read, T: Value>(
+/// Reads one array, if the header announces it.
+pub(crate) fn read_array<R: Read, T: Value>(
     source: &mut Source<R>,
     layout: &Layout,
     field: Field,

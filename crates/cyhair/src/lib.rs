@@ -26,6 +26,7 @@
 //! ```
 
 mod check;
+mod cursor;
 mod error;
 mod field;
 mod file;
@@ -33,7 +34,14 @@ mod header;
 mod layout;
 mod little_endian;
 mod look_alike;
+#[cfg(feature = "mmap")]
+mod mapped;
+mod repair;
+mod salvage;
 mod source;
+mod stream_read;
+mod stream_write;
+mod view;
 mod warning;
 mod write;
 
@@ -44,4 +52,11 @@ pub use header::{HEADER_BYTES, Header, KNOWN_ARRAYS, MAGIC};
 pub use layout::{Layout, Span};
 pub use little_endian::Value;
 pub use look_alike::LookAlike;
+#[cfg(feature = "mmap")]
+pub use mapped::MappedHair;
+pub use repair::Repair;
+pub use salvage::Repaired;
+pub use stream_read::{HairReader, Strand};
+pub use stream_write::HairWriter;
+pub use view::{ArrayView, HairView};
 pub use warning::Warning;
