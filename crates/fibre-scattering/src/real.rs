@@ -21,6 +21,8 @@ pub(crate) trait Real:
     const TWO: Self;
     const PI: Self;
     const TAU: Self;
+    /// What `TAU` is short of a full turn.
+    const TAU_REST: Self;
 
     fn of(value: f64) -> Self;
     fn abs(self) -> Self;
@@ -39,13 +41,14 @@ pub(crate) trait Real:
 }
 
 macro_rules! real {
-    ($real:ident, $bessel:path) => {
+    ($real:ident, $tau_rest:literal, $bessel:path) => {
         impl Real for $real {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const TWO: Self = 2.0;
             const PI: Self = std::$real::consts::PI;
             const TAU: Self = std::$real::consts::TAU;
+            const TAU_REST: Self = $tau_rest;
 
             fn of(value: f64) -> Self {
                 value as $real
@@ -90,5 +93,5 @@ macro_rules! real {
     };
 }
 
-real!(f32, bessel::scaled_i0_single);
-real!(f64, bessel::scaled_i0_double);
+real!(f32, -1.748_455_6e-7, bessel::scaled_i0_single);
+real!(f64, 2.449_293_598_294_706_4e-16, bessel::scaled_i0_double);
