@@ -29,15 +29,17 @@ impl<T: Real> TrimmedLogistic<T> {
         }
     }
 
-    /// The density at `x` in [-pi, pi]. The exponent is never positive: nothing overflows.
-    #[inline]
-    pub fn density(&self, x: T) -> T {
-        let fall = (-x.abs() * self.inverse_scale).exp();
-        let below = T::ONE + fall;
-        fall * self.height / (below * below)
+    /// The density at each `x` in [-pi, pi]. No exponent is positive: nothing overflows.
+    #[inline(always)]
+    pub fn densities(&self, x: [T; 4]) -> [T; 4] {
+        let falls = T::exp_four(x.map(|x| -x.abs() * self.inverse_scale));
+        falls.map(|fall| {
+            let below = T::ONE + fall;
+            fall * self.height / (below * below)
+        })
     }
 
-    /// An angle distributed as [`TrimmedLogistic::density`] says.
+    /// An angle distributed as [`TrimmedLogistic::densities`] says.
     pub fn sample(&self, u: T) -> T {
         let before = self.outside + T::TWO * self.inside * u;
         let after = self.outside + T::TWO * self.inside * (T::ONE - u);
@@ -45,17 +47,18 @@ impl<T: Real> TrimmedLogistic<T> {
     }
 }
 
-/// The same angle in [-pi, pi], for angles within a few turns of it.
+/// The same angle in [-pi, pi], for angles within a turn of it.
 ///
 /// A turn is taken in two parts: the f32 next to it is 1.7e-7 too long, and the gap that leaves
 /// where a smooth fibre's lobe lies across the seam would cost it 3e-4 of its light.
-#[inline]
-pub(crate) fn wrapped<T: Real>(mut angle: T) -> T {
-    while angle > T::PI {
-        angle = (angle - T::TAU) - T::TAU_REST;
-    }
-    while angle < -T::PI {
-        angle = (angle + T::TAU) + T::TAU_REST;
-    }
-    angle
+#[inline(always)]
+pub(crate) fn wrapped<T: Real>(angle: T) -> T {
+    let turn = if angle > T::PI {
+        T::ONE
+    } else if angle < -T::PI {
+        -T::ONE
+    } else {
+        T::ZERO
+    };
+    (angle - turn * T::TAU) - turn * T::TAU_REST
 }

@@ -1,10 +1,13 @@
 //! The modified Bessel function of order zero, scaled: `exp(-x) I0(x)`, which never overflows.
 
+use crate::exponential::exp_four;
+
 /// To single precision: Abramowitz and Stegun 9.8.1 and 9.8.2, both scaled.
 ///
-/// `x >= 0`; the relative error stays below 5e-7.
-#[inline]
-pub(crate) fn scaled_i0_single(x: f32) -> f32 {
+/// `x >= 0`; the relative error stays below 6e-7. Both ranges are worked out and one is kept: four
+/// lobes fall in either, and a branch for each would cost more.
+#[inline(always)]
+pub(crate) fn scaled_i0_four(x: [f32; 4]) -> [f32; 4] {
     const NEAR: [f32; 7] =
         [0.004_581_3, 0.036_076_8, 0.265_973_2, 1.206_749_2, 3.089_942_4, 3.515_622_9, 1.0];
     const FAR: [f32; 9] = [
@@ -18,16 +21,21 @@ pub(crate) fn scaled_i0_single(x: f32) -> f32 {
         0.013_285_92,
         0.398_942_3,
     ];
-    if x < 3.75 {
-        let y = x * (1.0 / 3.75);
-        horner(&NEAR, y * y) * (-x).exp()
-    } else {
-        horner(&FAR, 3.75 / x) / x.sqrt()
-    }
+    const SEAM: f32 = 3.75;
+    let falls = exp_four(x.map(|x| -x));
+    let near: [f32; 4] = std::array::from_fn(|p| {
+        let y = x[p] * (1.0 / SEAM);
+        horner(&NEAR, y * y) * falls[p]
+    });
+    let far = x.map(|x| {
+        let x = if x > SEAM { x } else { SEAM };
+        horner(&FAR, SEAM / x) / x.sqrt()
+    });
+    std::array::from_fn(|p| if x[p] < SEAM { near[p] } else { far[p] })
 }
 
 /// The polynomial whose coefficients are given from the highest power down.
-#[inline]
+#[inline(always)]
 fn horner<const N: usize>(coefficients: &[f32; N], x: f32) -> f32 {
     coefficients.iter().fold(0.0, |sum, c| sum * x + c)
 }
@@ -55,4 +63,32 @@ pub(crate) fn scaled_i0_double(x: f64) -> f64 {
         k += 1.0;
     }
     if x < 30.0 { sum * (-x).exp() } else { sum / (std::f64::consts::TAU * x).sqrt() }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::{scaled_i0_double, scaled_i0_four};
+
+    #[test]
+    fn both_precisions_agree() {
+        let mut worst = 0.0_f64;
+        for step in 0..400_000 {
+            let x = 10.0_f32.powf(step as f32 * 3e-5 - 4.0);
+            let exact = scaled_i0_double(f64::from(x));
+            worst = worst.max((f64::from(scaled_i0_four([x; 4])[0]) / exact - 1.0).abs());
+        }
+        assert!(worst < 6e-7, "{worst}");
+        assert_eq!(scaled_i0_four([0.0; 4]), [1.0; 4]);
+    }
+
+    /// Published values: Abramowitz and Stegun, table 9.8, and the seam of the two series.
+    #[test]
+    fn double_precision_is_exact() {
+        let known = [(0.0, 1.0), (1.0, 0.465_759_607_593_640_4), (10.0, 0.127_833_337_163_428_6)];
+        for (x, value) in known {
+            assert!((scaled_i0_double(x) - value).abs() < 1e-15, "{x}");
+        }
+        let (below, above) = (scaled_i0_double(30.0 - 1e-12), scaled_i0_double(30.0));
+        assert!((below / above - 1.0).abs() < 1e-13);
+    }
 }

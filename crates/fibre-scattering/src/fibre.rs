@@ -5,9 +5,12 @@
 
 use crate::attenuation::Chord;
 use crate::azimuthal::{TrimmedLogistic, wrapped};
-use crate::longitudinal::{Inclination, Longitudinal};
+use crate::longitudinal::{Inclination, Longitudinal, Mirrors};
 use crate::parameters::{HairParameters, SMALLEST_ROUGHNESS};
 use crate::real::Real;
+
+/// Position of the residual lobe, the only one without an azimuth of its own.
+const RESIDUAL: usize = 3;
 
 /// What depends on the material alone.
 #[derive(Debug, Clone, Copy)]
@@ -23,8 +26,7 @@ pub(crate) struct Fibre<T> {
 /// The lobes' shapes, which an evaluation needs.
 #[derive(Debug, Clone, Copy)]
 struct Spread<T> {
-    /// R, TT, and TRT, whose variance the residual shares.
-    along: [Longitudinal<T>; 3],
+    along: Longitudinal<T>,
     around: TrimmedLogistic<T>,
 }
 
@@ -42,7 +44,7 @@ impl<T: Real> Fibre<T> {
             lobe_weights: parameters.lobe_weights.map(|w| T::of(f64::from(w))),
             tilts: tilts(alpha).map(|tilt| (T::of(tilt.sin()), T::of(tilt.cos()))),
             spread: Spread {
-                along: [v, 0.25 * v, 4.0 * v].map(Longitudinal::new),
+                along: Longitudinal::new([v, 0.25 * v, 4.0 * v, 4.0 * v]),
                 around: TrimmedLogistic::new(logistic_scale(beta_n)),
             },
         }
@@ -59,7 +61,7 @@ impl<T: Real> Fibre<T> {
         });
         Hit {
             turn_o,
-            mirrors: self.tilts.map(|tilt| theta_o.turned(tilt)),
+            mirrors: Mirrors::new(theta_o, self.tilts),
             centres: exit_azimuths(&chord),
             probabilities: probabilities(&attenuations),
             attenuations,
@@ -92,11 +94,12 @@ fn tilts(alpha: f64) -> [f64; 4] {
     [2.0 * alpha, -alpha, -4.0 * alpha, 0.0]
 }
 
-/// The azimuth, against that of `wo`, where R, TT and TRT leave a smooth fibre.
-fn exit_azimuths<T: Real>(chord: &Chord<T>) -> [T; 3] {
+/// The azimuth in [-pi, pi], against that of `wo`, where R, TT and TRT leave a smooth fibre:
+/// 2 p gamma_t - 2 gamma_i + p pi.
+fn exit_azimuths<T: Real>(chord: &Chord<T>) -> [T; 4] {
     let r = -T::TWO * chord.gamma_i;
     let inside = T::TWO * chord.gamma_t;
-    [r, wrapped(r + inside + T::PI), wrapped(r + inside + inside)]
+    [r, wrapped(r + inside + T::PI), wrapped(r + inside + inside), T::ZERO]
 }
 
 /// Chance of each lobe, by what it carries in the channel that is absorbed least.
@@ -124,35 +127,26 @@ fn inclination_and_turn<T: Real>([along, y, z]: [T; 3]) -> (Inclination<T>, [T; 
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Hit<T> {
     turn_o: [T; 2],
-    /// The outgoing inclination as each lobe's scales see it.
-    mirrors: [Inclination<T>; 4],
-    centres: [T; 3],
+    mirrors: Mirrors<T>,
+    /// The last is of no account: the residual leaves in all azimuths alike.
+    centres: [T; 4],
     probabilities: [T; 4],
     pub attenuations: [[T; 3]; 4],
     spread: Spread<T>,
 }
 
 impl<T: Real> Hit<T> {
-    /// M_p N_p of each lobe; zero for one that carries nothing.
+    /// M_p N_p of each lobe, all four in step: that is what makes it fast.
     #[inline]
     fn densities(&self, wi: [T; 3]) -> [T; 4] {
         let [along, y, z] = wi;
         let theta_i = Inclination { sin: along, cos: (y * y + z * z).sqrt() };
         let [cos_o, sin_o] = self.turn_o;
         let phi = (z * cos_o - y * sin_o).atan2(y * cos_o + z * sin_o);
-        std::array::from_fn(|p| {
-            if self.probabilities[p] == T::ZERO {
-                return T::ZERO;
-            }
-            let around = match self.centres.get(p) {
-                Some(&centre) => self.spread.around.density(wrapped(phi - centre)),
-                None => T::ONE / T::TAU,
-            };
-            if around == T::ZERO {
-                return T::ZERO;
-            }
-            around * self.spread.along[p.min(2)].density(theta_i, self.mirrors[p])
-        })
+        let mut around = self.spread.around.densities(self.centres.map(|centre| wrapped(phi - centre)));
+        around[RESIDUAL] = T::ONE / T::TAU;
+        let along = self.spread.along.densities(theta_i, &self.mirrors);
+        std::array::from_fn(|p| around[p] * along[p])
     }
 
     /// f cos(theta_i) per lobe and channel, and the density over solid angle.
@@ -176,11 +170,9 @@ impl<T: Real> Hit<T> {
     /// light.
     pub fn sample_direction(&self, u: [T; 4]) -> Option<([T; 3], usize)> {
         let p = self.chosen(u[0])?;
-        let theta_i = self.spread.along[p.min(2)].sample(self.mirrors[p], [u[1], u[2]]);
-        let phi = match self.centres.get(p) {
-            Some(&centre) => centre + self.spread.around.sample(u[3]),
-            None => T::TAU * u[3],
-        };
+        let theta_i = self.spread.along.sample(p, &self.mirrors, [u[1], u[2]]);
+        let phi =
+            if p == RESIDUAL { T::TAU * u[3] } else { self.centres[p] + self.spread.around.sample(u[3]) };
         let (sin_phi, cos_phi) = phi.sin_cos();
         let [cos_o, sin_o] = self.turn_o;
         let y = theta_i.cos * (cos_phi * cos_o - sin_phi * sin_o);

@@ -62,6 +62,7 @@ mod azimuthal;
 mod bcsdf;
 mod bessel;
 mod error;
+mod exponential;
 mod fibre;
 mod lobe;
 mod longitudinal;

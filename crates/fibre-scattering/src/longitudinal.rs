@@ -21,59 +21,76 @@ impl<T: Real> Inclination<T> {
     }
 }
 
-/// M of one variance, with all that depends on the variance alone.
+/// M of the four lobes, with all that depends on their variances alone.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Longitudinal<T> {
-    variance: T,
-    inverse_variance: T,
+    variances: [T; 4],
+    inverse_variances: [T; 4],
     /// `1 / (v (1 - exp(-2/v)))`
-    scale: T,
+    scales: [T; 4],
     /// `exp(-2/v) - 1`
-    range: T,
+    ranges: [T; 4],
+}
+
+/// The outgoing inclination as each lobe's scales see it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mirrors<T> {
+    sins: [T; 4],
+    coss: [T; 4],
+}
+
+impl<T: Real> Mirrors<T> {
+    /// `theta_o` turned by each lobe's tilt.
+    pub fn new(theta_o: Inclination<T>, tilts: [(T, T); 4]) -> Self {
+        let turned = tilts.map(|tilt| theta_o.turned(tilt));
+        Mirrors { sins: turned.map(|theta| theta.sin), coss: turned.map(|theta| theta.cos) }
+    }
 }
 
 impl<T: Real> Longitudinal<T> {
-    /// `variance > 0`, in radians squared where it is small.
-    pub fn new(variance: f64) -> Self {
-        let range = (-2.0 / variance).exp_m1();
+    /// `variances > 0`, in radians squared where they are small.
+    pub fn new(variances: [f64; 4]) -> Self {
+        let range = |v: f64| (-2.0 / v).exp_m1();
         Longitudinal {
-            variance: T::of(variance),
-            inverse_variance: T::of(1.0 / variance),
-            scale: T::of(-1.0 / (variance * range)),
-            range: T::of(range),
+            variances: variances.map(T::of),
+            inverse_variances: variances.map(|v| T::of(1.0 / v)),
+            scales: variances.map(|v| T::of(-1.0 / (v * range(v)))),
+            ranges: variances.map(|v| T::of(range(v))),
         }
     }
 
-    /// The density of `theta_i` against `cos(theta_i) d(theta_i)`, for light mirrored by `mirror`.
+    /// Each lobe's density of `theta_i` against `cos(theta_i) d(theta_i)`.
     ///
     /// d'Eon's `csch(1/v) / 2v exp(-sin sin / v) I0(cos cos / v)` is the difference of huge
     /// exponents for a smooth fibre. Writing the exponent as the squared chord between the two
     /// directions and scaling I0 leaves nothing to cancel, and needs no case for small variance.
-    #[inline]
-    pub fn density(&self, theta_i: Inclination<T>, mirror: Inclination<T>) -> T {
-        let across = theta_i.cos - mirror.cos;
-        let along = theta_i.sin + mirror.sin;
-        let half_chord = T::of(0.5) * (across * across + along * along);
-        let fall = (-half_chord * self.inverse_variance).exp();
-        if fall == T::ZERO {
-            return T::ZERO;
-        }
-        let bessel = (theta_i.cos * mirror.cos * self.inverse_variance).scaled_bessel_i0();
-        fall * bessel * self.scale
+    #[inline(always)]
+    pub fn densities(&self, theta_i: Inclination<T>, mirrors: &Mirrors<T>) -> [T; 4] {
+        let falls = T::exp_four(std::array::from_fn(|p| {
+            let across = theta_i.cos - mirrors.coss[p];
+            let along = theta_i.sin + mirrors.sins[p];
+            let half_chord = T::of(0.5) * (across * across + along * along);
+            -half_chord * self.inverse_variances[p]
+        }));
+        let bessels = T::scaled_bessel_i0_four(std::array::from_fn(|p| {
+            theta_i.cos * mirrors.coss[p] * self.inverse_variances[p]
+        }));
+        std::array::from_fn(|p| falls[p] * bessels[p] * self.scales[p])
     }
 
-    /// An inclination distributed as [`Longitudinal::density`] says, after d'Eon et al. 2013.
+    /// An inclination distributed as lobe `p`'s density says, after d'Eon et al. 2013.
     ///
     /// Both coordinates of the point on the cone are formed, not one from the other, so that
     /// the cosine is as good at grazing angles as anywhere.
-    pub fn sample(&self, mirror: Inclination<T>, u: [T; 2]) -> Inclination<T> {
-        let fall = -self.variance * (u[0] * self.range).ln_1p();
+    pub fn sample(&self, p: usize, mirrors: &Mirrors<T>, u: [T; 2]) -> Inclination<T> {
+        let (mirror_sin, mirror_cos) = (mirrors.sins[p], mirrors.coss[p]);
+        let fall = -self.variances[p] * (u[0] * self.ranges[p]).ln_1p();
         let fall = fall.max(T::ZERO).min(T::TWO);
         let toward = T::ONE - fall;
         let aside = (fall * (T::TWO - fall)).sqrt();
         let (sin_turn, cos_turn) = (T::TAU * u[1]).sin_cos();
-        let along = aside * cos_turn * mirror.cos - toward * mirror.sin;
-        let outward = aside * cos_turn * mirror.sin + toward * mirror.cos;
+        let along = aside * cos_turn * mirror_cos - toward * mirror_sin;
+        let outward = aside * cos_turn * mirror_sin + toward * mirror_cos;
         let sideways = aside * sin_turn;
         Inclination {
             sin: along.max(-T::ONE).min(T::ONE),

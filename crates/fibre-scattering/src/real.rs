@@ -3,7 +3,7 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::bessel;
+use crate::{bessel, exponential};
 
 /// `f32` for rendering, `f64` to know how good that is.
 pub(crate) trait Real:
@@ -36,12 +36,14 @@ pub(crate) trait Real:
     fn asin(self) -> Self;
     fn atan2(self, x: Self) -> Self;
     fn sin_cos(self) -> (Self, Self);
-    /// `exp(-x) I0(x)` for `x >= 0`.
-    fn scaled_bessel_i0(self) -> Self;
+    /// `exp(x)` of each `x <= 0`.
+    fn exp_four(x: [Self; 4]) -> [Self; 4];
+    /// `exp(-x) I0(x)` of each `x >= 0`.
+    fn scaled_bessel_i0_four(x: [Self; 4]) -> [Self; 4];
 }
 
 macro_rules! real {
-    ($real:ident, $tau_rest:literal, $bessel:path) => {
+    ($real:ident, $tau_rest:literal, $exp:expr, $bessel:expr) => {
         impl Real for $real {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
@@ -86,12 +88,18 @@ macro_rules! real {
             fn sin_cos(self) -> (Self, Self) {
                 $real::sin_cos(self)
             }
-            fn scaled_bessel_i0(self) -> Self {
-                $bessel(self)
+            #[inline(always)]
+            fn exp_four(x: [Self; 4]) -> [Self; 4] {
+                $exp(x)
+            }
+            #[inline(always)]
+            fn scaled_bessel_i0_four(x: [Self; 4]) -> [Self; 4] {
+                $bessel(x)
             }
         }
     };
 }
 
-real!(f32, -1.748_455_6e-7, bessel::scaled_i0_single);
-real!(f64, 2.449_293_598_294_706_4e-16, bessel::scaled_i0_double);
+real!(f32, -1.748_455_6e-7, exponential::exp_four, bessel::scaled_i0_four);
+real!(f64, 2.449_293_598_294_706_4e-16, |x: [f64; 4]| x.map(f64::exp), |x: [f64; 4]| x
+    .map(bessel::scaled_i0_double));
