@@ -56,6 +56,17 @@ impl Groom {
         })
     }
 
+    /// A groom like this one with other strands; the caller keeps the type's invariants.
+    pub(crate) fn with_strands(
+        &self,
+        offsets: Vec<u32>,
+        positions: Vec<Vec3>,
+        attributes: BTreeMap<String, Attribute>,
+    ) -> Self {
+        let (up_axis, meters_per_unit) = (self.up_axis, self.meters_per_unit);
+        Groom { offsets, positions, attributes, up_axis, meters_per_unit }
+    }
+
     /// How many strands there are.
     #[must_use]
     pub fn strand_count(&self) -> usize {

@@ -18,11 +18,22 @@
 
 mod attribute;
 mod axis;
+mod dress;
 mod error;
+mod gather;
 #[allow(clippy::module_inception)] // the crate's one idea is the type of the same name
 mod groom;
+mod random;
+mod repair;
+mod resample;
+mod statistics;
+mod subsample;
+mod transform;
 
 pub use attribute::{Attribute, Domain, FloatView, Values, Vec3View, names};
 pub use axis::UpAxis;
 pub use error::GroomError;
 pub use groom::Groom;
+pub use random::random;
+pub use repair::Repair;
+pub use statistics::{Range, Statistics};
