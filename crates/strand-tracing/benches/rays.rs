@@ -10,9 +10,7 @@ use obvhs::BvhBuildParams;
 use obvhs::bvh2::builder::build_bvh2;
 use obvhs::cwbvh::builder::build_cwbvh;
 use obvhs::ray::RayHit;
-use strand_tracing::{
-    BuildOptions, BuildQuality, Hit, Primitive, Radii, Ray, Strands, Tracer,
-};
+use strand_tracing::{BuildOptions, BuildQuality, Hit, Primitive, Radii, Ray, Strands, Tracer};
 
 #[path = "../src/bounds.rs"]
 mod bounds;
@@ -53,8 +51,7 @@ impl Random {
 
 fn ball(strands: u32, segments: u32) -> Hair {
     let mut random = Random(1);
-    let mut hair =
-        Hair { name: "ball", offsets: vec![0], positions: Vec::new(), radii: Vec::new() };
+    let mut hair = Hair { name: "ball", offsets: vec![0], positions: Vec::new(), radii: Vec::new() };
     for _ in 0..strands {
         let out = random.direction();
         let side = out.any_orthonormal_vector() * (random.next() - 0.5);
@@ -85,9 +82,8 @@ fn straight() -> Option<Hair> {
     }
     at += if arrays & 1 == 1 { 2 * strands as usize } else { 0 };
     let number = |i: usize| f32::from_bits(word(at + 4 * i));
-    let positions: Vec<Vec3> = (0..points as usize)
-        .map(|p| vec3(number(3 * p), number(3 * p + 1), number(3 * p + 2)))
-        .collect();
+    let positions: Vec<Vec3> =
+        (0..points as usize).map(|p| vec3(number(3 * p), number(3 * p + 1), number(3 * p + 2))).collect();
     Some(Hair { name: "straight.hair", offsets, radii: vec![0.05; positions.len()], positions })
 }
 
@@ -142,9 +138,8 @@ fn main() {
             let tracer = Tracer::build(&[strands], &[], &options).unwrap();
             let statistics = tracer.statistics();
             let primary = camera_rays(&tracer, 500);
-            let (hits, seconds) = timed(|| {
-                primary.iter().filter_map(|ray| tracer.closest(ray, None)).collect::<Vec<_>>()
-            });
+            let (hits, seconds) =
+                timed(|| primary.iter().filter_map(|ray| tracer.closest(ray, None)).collect::<Vec<_>>());
             let secondary = bounces(&hits);
             let (again, bounced) =
                 timed(|| secondary.iter().filter(|(r, p)| tracer.closest(r, Some(*p)).is_some()).count());
@@ -172,9 +167,7 @@ fn plain(hair: &Hair, primary: &[Ray], secondary: &[(Ray, Primitive)]) {
         .offsets
         .windows(2)
         .flat_map(|o| (o[0] as usize)..(o[1].saturating_sub(1) as usize))
-        .map(|i| {
-            (hair.positions[i].extend(hair.radii[i]), hair.positions[i + 1].extend(hair.radii[i + 1]))
-        })
+        .map(|i| (hair.positions[i].extend(hair.radii[i]), hair.positions[i + 1].extend(hair.radii[i + 1])))
         .collect();
     let boxes: Vec<_> = ends.iter().map(|&(a, b)| bounds::of_segment(a, b)).collect();
     let (binary, binary_build) =
@@ -199,17 +192,12 @@ fn plain(hair: &Hair, primary: &[Ray], secondary: &[(Ray, Primitive)]) {
                     let (plain, line) = convert(ray);
                     let mut hit = RayHit::none();
                     black_box(match (name, any) {
-                        ("Bvh2", false) => binary
-                            .ray_traverse(plain, &mut hit, |_, i| test(&line, binary_ends[i])),
-                        ("Bvh2", true) => {
-                            binary.ray_traverse_miss(plain, |_, i| test(&line, binary_ends[i]))
+                        ("Bvh2", false) => {
+                            binary.ray_traverse(plain, &mut hit, |_, i| test(&line, binary_ends[i]))
                         }
-                        (_, false) => {
-                            wide.ray_traverse(plain, &mut hit, |_, i| test(&line, wide_ends[i]))
-                        }
-                        (_, true) => {
-                            wide.ray_traverse_miss(plain, |_, i| test(&line, wide_ends[i]))
-                        }
+                        ("Bvh2", true) => binary.ray_traverse_miss(plain, |_, i| test(&line, binary_ends[i])),
+                        (_, false) => wide.ray_traverse(plain, &mut hit, |_, i| test(&line, wide_ends[i])),
+                        (_, true) => wide.ray_traverse_miss(plain, |_, i| test(&line, wide_ends[i])),
                     });
                 }
             });
@@ -223,4 +211,3 @@ fn plain(hair: &Hair, primary: &[Ray], secondary: &[(Ray, Primitive)]) {
         );
     }
 }
-

@@ -30,12 +30,7 @@ impl ConeSphere {
     /// From two stored points; their `w` is the radius, its sign is not part of it.
     pub(crate) fn new(a: Vec4, b: Vec4) -> Self {
         let start = a.xyz().as_dvec3();
-        Self {
-            a: start,
-            ab: b.xyz().as_dvec3() - start,
-            ra: f64::from(a.w.abs()),
-            rb: f64::from(b.w.abs()),
-        }
+        Self { a: start, ab: b.xyz().as_dvec3() - start, ra: f64::from(a.w.abs()), rb: f64::from(b.w.abs()) }
     }
 
     pub(crate) fn inflated(&self, by: f64) -> Self {

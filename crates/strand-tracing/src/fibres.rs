@@ -101,9 +101,7 @@ impl Fibres {
 
     /// Whether two numbers are segments of one strand, from the table of strands.
     fn joined(&self, low: u32, high: u32) -> bool {
-        self.cone(low).is_some()
-            && self.cone(high).is_some()
-            && self.strand_of(low) == self.strand_of(high)
+        self.cone(low).is_some() && self.cone(high).is_some() && self.strand_of(low) == self.strand_of(high)
     }
 
     fn strand_of(&self, number: u32) -> usize {
@@ -142,8 +140,7 @@ impl Fibres {
 
     pub(crate) fn primitive(&self, number: u32) -> Primitive {
         let strand = self.strand_of(number);
-        let object =
-            self.objects.partition_point(|&first| first as usize <= strand).saturating_sub(1);
+        let object = self.objects.partition_point(|&first| first as usize <= strand).saturating_sub(1);
         let segment = number - self.firsts.get(strand).copied().unwrap_or(number);
         let first = self.objects.get(object).copied().unwrap_or(0);
         Primitive::Segment { object: object as u32, strand: strand as u32 - first, segment }
@@ -175,11 +172,15 @@ impl Fibres {
     /// How far along the line the fibre left is still around the ray: the end of the unbroken stretch
     /// inside the strand that starts at its origin. Entries before it are joints passed from within.
     ///
-    /// The strand is taken wider by the rounding of the origin, or a ray that grazes a straight strand
-    /// would come out of one segment and into the next.
+    /// The strand is taken wider by the rounding of the origin and of its points, or a ray that grazes a
+    /// straight strand would come out of one segment and into the next.
     pub(crate) fn way_out(&self, departure: &Departure, line: &Line) -> f64 {
-        let rounding = line.origin.abs().max_element() * f64::from(f32::EPSILON) * 2.0;
-        let span = |n| self.cone(n).and_then(|c| c.inflated(rounding).span(line));
+        let span = |number| {
+            let (a, b) = self.ends(number)?;
+            let size = a.xyz().abs().max(b.xyz().abs()).max_element();
+            let size = f64::from(size).max(line.origin.abs().max_element());
+            ConeSphere::new(a, b).inflated(2.0 * f64::from(f32::EPSILON) * size).span(line)
+        };
         let mut out = span(departure.segment).map_or(0.0, |(_, exit)| exit.max(0.0));
         loop {
             let before = out;

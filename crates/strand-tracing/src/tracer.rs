@@ -143,11 +143,7 @@ impl<'a> Query<'a> {
     /// Where the ray hits a leaf, if that is at `within` or before.
     #[inline]
     fn hit(&self, leaf: u32, within: f64) -> Option<f64> {
-        if leaf & TRIANGLE == 0 {
-            self.fibre_hit(leaf, within)
-        } else {
-            self.triangle_hit(leaf, within)
-        }
+        if leaf & TRIANGLE == 0 { self.fibre_hit(leaf, within) } else { self.triangle_hit(leaf, within) }
     }
 
     #[inline]

@@ -27,10 +27,7 @@ struct Node {
 }
 
 impl Node {
-    const NONE: Self = Self {
-        planes: [[Vec4::INFINITY, Vec4::NEG_INFINITY]; 3],
-        children: [EMPTY; WIDTH],
-    };
+    const NONE: Self = Self { planes: [[Vec4::INFINITY, Vec4::NEG_INFINITY]; 3], children: [EMPTY; WIDTH] };
 }
 
 /// A distance no box entered at `t` or before can seem beyond, for [`WideTree::walk`]'s `far`.
