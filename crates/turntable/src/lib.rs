@@ -1,1 +1,50 @@
-//! Scripted turntables from YAML: steps, staleness, frames, contact sheets.
+//! Scripted turntables: a YAML pipeline becomes converted grooms, frames, a contact sheet and an
+//! error report.
+//!
+//! The way: groom -> attributes -> converted files; groom + mesh + lights -> scene -> frames (EXR) ->
+//! contact sheet (PNG), report (JSON, HTML). A [`Plan`] is read from a file, checked against the
+//! schema (unknown keys are refused by name, line and column) and compared with what is on disk;
+//! [`Plan::run`] makes what is missing or stale and nothing else.
+//!
+//! Stale means: the digest of everything an output depends on (bytes of inputs, settings that matter
+//! to it, program version) differs from the one it was made with. Frames carry theirs in the EXR
+//! header; the others have theirs in `manifest.json`. Every file is written whole or not at all.
+//!
+//! ```
+//! use turntable::{Options, Plan, State};
+//!
+//! # let folder = tempfile::tempdir()?;
+//! let file = folder.path().join("turn.yaml");
+//! std::fs::write(&file, "version: 1\ngroom: {sample: {}}\nlights: {environment: {studio: true}}\n")?;
+//! let output = Some(folder.path().join("out"));
+//! let plan = Plan::new(&file, Options { output, ..Options::default() })?;
+//! assert_eq!(plan.steps().len(), 12);
+//! assert!(plan.steps().iter().all(|step| step.state == State::Missing));
+//! # Ok::<(), Box<dyn std::error::Error>>(())
+//! ```
+
+mod check;
+mod digest;
+mod digits;
+mod error;
+mod explain;
+mod frame_file;
+mod frames;
+mod manifest;
+mod nearest;
+mod plan;
+mod prepare;
+mod report;
+mod reporter;
+mod run;
+mod scene;
+pub mod schema;
+mod sheet;
+mod yaml;
+
+pub use error::{Fault, TurntableError};
+pub use explain::Remark;
+pub use frames::{FrameRange, FrameRangeError};
+pub use plan::{Options, Plan, State, Step, StepKind};
+pub use reporter::{Event, Reporter, Silent};
+pub use run::{FrameLine, Summary};

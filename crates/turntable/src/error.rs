@@ -1,0 +1,104 @@
+//! What can keep a turntable from being made.
+
+use std::fmt;
+use std::path::PathBuf;
+
+use crate::FrameRangeError;
+
+/// One thing wrong with a pipeline file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Fault {
+    /// The pipeline file.
+    pub file: PathBuf,
+    /// Line and column, from 1; `None` for what stands on the command line or nowhere.
+    pub place: Option<(usize, usize)>,
+    /// The key, as `render.spp`; empty where the message names it.
+    pub key: String,
+    /// What is wrong and what would be right.
+    pub message: String,
+}
+
+impl fmt::Display for Fault {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}:", self.file.display())?;
+        if let Some((line, column)) = self.place {
+            write!(f, "{line}:{column}:")?;
+        }
+        if !self.key.is_empty() {
+            write!(f, " {}:", self.key)?;
+        }
+        write!(f, " {}", self.message)
+    }
+}
+
+/// A turntable that could not be planned or made. What was finished before stays finished.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum TurntableError {
+    /// The pipeline file says what it may not; every fault that could be found at once.
+    #[error("{}", lines(.0))]
+    Pipeline(Vec<Fault>),
+    /// The frames asked for cannot be read.
+    #[error(transparent)]
+    Frames(#[from] FrameRangeError),
+    /// None of the frames asked for is in the turntable.
+    #[error("frames {asked}: the turntable has frames 1-{count}")]
+    NoSuchFrame {
+        /// What was asked for.
+        asked: String,
+        /// How many frames there are.
+        count: u32,
+    },
+    /// The system refused.
+    #[error("{}: could not {action}: {source}", path.display())]
+    Io {
+        /// The file or folder.
+        path: PathBuf,
+        /// What was tried.
+        action: &'static str,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// An output could not be put in its place.
+    #[error(transparent)]
+    WholeFile(#[from] whole_file::WholeFileError),
+    /// The groom could not be read or written.
+    #[error(transparent)]
+    Format(#[from] groom_formats::FormatError),
+    /// The groom could not be changed as asked.
+    #[error("attributes: {0}")]
+    Groom(#[from] groom::GroomError),
+    /// The sample groom could not be made.
+    #[error("groom.sample: {0}")]
+    Sample(String),
+    /// The mesh could not be read.
+    #[error(transparent)]
+    Mesh(#[from] moving_mesh::MeshError),
+    /// A frame could not be rendered or written.
+    #[error(transparent)]
+    Render(#[from] hair_render::RenderError),
+    /// A frame that should be there cannot be read back.
+    #[error("{}: cannot be read back ({reason}); delete it and run again", path.display())]
+    Frame {
+        /// The frame.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
+    /// The error report could not be written down.
+    #[error(transparent)]
+    Report(#[from] error_report::ReportError),
+    /// The caller asked to stop; run again to go on.
+    #[error("stopped; run again to go on")]
+    Interrupted,
+}
+
+impl TurntableError {
+    pub(crate) fn io(path: &std::path::Path, action: &'static str, source: std::io::Error) -> Self {
+        TurntableError::Io { path: path.to_owned(), action, source }
+    }
+}
+
+fn lines(faults: &[Fault]) -> String {
+    faults.iter().map(ToString::to_string).collect::<Vec<_>>().join("\n")
+}

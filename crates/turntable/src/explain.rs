@@ -1,0 +1,62 @@
+//! What a plan will do, what it leaves out, and why.
+
+use serde::Serialize;
+
+use crate::{Plan, State, StepKind};
+
+/// One line of an explanation.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize)]
+pub struct Remark {
+    /// What it is about: an output or a part of the work.
+    pub what: String,
+    /// `make`, `keep`, `move` or `leave out`.
+    pub action: &'static str,
+    /// Why.
+    pub why: String,
+}
+
+impl Plan {
+    /// What [`Plan::run`] would do and leave out. Reads nothing more than the plan has.
+    #[must_use]
+    pub fn explain(&self) -> Vec<Remark> {
+        let mut remarks: Vec<Remark> =
+            self.steps().iter().map(|s| of_state(&s.output.to_string_lossy(), &s.state)).collect();
+        remarks.extend(self.left_out());
+        remarks
+    }
+
+    fn left_out(&self) -> Vec<Remark> {
+        let due = |kind: fn(&StepKind) -> bool| {
+            self.steps().iter().any(|s| kind(&s.kind) && matches!(s.state, State::Missing | State::Stale))
+        };
+        let frames = due(|kind| matches!(kind, StepKind::Frame { .. }));
+        let converts = due(|kind| *kind == StepKind::Convert);
+        let pipeline = &self.pipeline;
+        let cases = [
+            (!frames && !converts, "loading the groom", "nothing that is made needs it"),
+            (!frames, "building the scene", "no frame has to be rendered"),
+            (pipeline.mesh.is_none(), "mesh", "the pipeline names none"),
+            (pipeline.lights.environment.is_none(), "environment", "the pipeline names none"),
+            (pipeline.lights.area.is_empty(), "area lights", "the pipeline names none"),
+            (pipeline.render.aovs.is_empty(), "light passes", "`render.aovs` asks for none"),
+            (pipeline.sheet.is_none(), "contact sheet", "the pipeline has no `sheet`"),
+            (!pipeline.tone.frames, "PNG frames", "`tone.frames` is off"),
+            (pipeline.convert.is_empty(), "converted files", "`convert` lists none"),
+        ];
+        let cases = cases.into_iter().filter(|(left_out, ..)| *left_out);
+        cases
+            .map(|(_, what, why)| Remark { what: what.into(), action: "leave out", why: why.into() })
+            .collect()
+    }
+}
+
+fn of_state(what: &str, state: &State) -> Remark {
+    let (action, why) = match state {
+        State::UpToDate => ("keep", "up to date".to_owned()),
+        State::Missing => ("make", "not there".to_owned()),
+        State::Stale => ("make", "inputs, settings or the file itself changed".to_owned()),
+        State::Elsewhere(path) => ("move", format!("the same view is there as {}", path.display())),
+        State::NotAsked => ("leave out", "not asked for, or it needs frames that were not".to_owned()),
+    };
+    Remark { what: what.to_owned(), action, why }
+}
