@@ -43,7 +43,7 @@ fn costs() -> Result<(), fibre_scattering::ScatteringError> {
     println!("ns per call            white  coloured    smooth");
     let materials = [(0.3, Vec3::ZERO), (0.3, Vec3::new(0.1, 0.4, 1.2)), (0.03, Vec3::new(0.1, 0.4, 1.2))];
     let mut table = [[0.0; 3]; 4];
-    let inputs: Vec<_> = (0..4096).map(spread).collect();
+    let inputs: Vec<_> = (0..256).map(spread).collect();
     let input = |index: u32| inputs[index as usize % inputs.len()];
     for (column, (beta, sigma_a)) in materials.into_iter().enumerate() {
         let parameters = HairParameters { beta_m: beta, beta_n: beta, sigma_a, ..HairParameters::default() };

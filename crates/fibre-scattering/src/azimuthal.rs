@@ -1,6 +1,6 @@
 //! How light spreads around the fibre: the logistic density of Chiang et al. 2016, cut to one turn.
 
-use crate::real::Real;
+use crate::real::{Real, four};
 
 /// A logistic density around 0, cut to [-pi, pi] and made to integrate to 1 there.
 #[derive(Debug, Clone, Copy)]
@@ -32,10 +32,10 @@ impl<T: Real> TrimmedLogistic<T> {
     /// The density at each `x` in [-pi, pi]. No exponent is positive: nothing overflows.
     #[inline(always)]
     pub fn densities(&self, x: [T; 4]) -> [T; 4] {
-        let falls = T::exp_four(x.map(|x| -x.abs() * self.inverse_scale));
-        falls.map(|fall| {
-            let below = T::ONE + fall;
-            fall * self.height / (below * below)
+        let falls = T::exp_four(four(|p| -x[p].abs() * self.inverse_scale));
+        four(|p| {
+            let below = T::ONE + falls[p];
+            falls[p] * self.height / (below * below)
         })
     }
 

@@ -6,6 +6,7 @@ use crate::error::ScatteringError;
 use crate::fibre::{Fibre, Hit};
 use crate::lobe::{Lobe, LobeValues};
 use crate::parameters::HairParameters;
+use crate::real::four;
 
 /// A fibre's material, with everything worked out that depends on neither direction nor offset.
 #[derive(Debug, Clone, Copy)]
@@ -88,7 +89,7 @@ impl HairScatter {
     #[must_use]
     pub fn evaluate_with_pdf(&self, wi: Vec3) -> (LobeValues, f32) {
         let (values, pdf) = self.hit.evaluate_with_pdf(wi.to_array());
-        (LobeValues(values.map(Vec3::from_array)), pdf)
+        (LobeValues(four(|p| Vec3::from_array(values[p]))), pdf)
     }
 
     /// Draws a direction from four uniform numbers in [0, 1): the first picks the lobe, the next

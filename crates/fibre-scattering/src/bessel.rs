@@ -1,6 +1,7 @@
 //! The modified Bessel function of order zero, scaled: `exp(-x) I0(x)`, which never overflows.
 
 use crate::exponential::exp_four;
+use crate::real::four;
 
 /// To single precision: Abramowitz and Stegun 9.8.1 and 9.8.2, both scaled.
 ///
@@ -22,22 +23,26 @@ pub(crate) fn scaled_i0_four(x: [f32; 4]) -> [f32; 4] {
         0.398_942_3,
     ];
     const SEAM: f32 = 3.75;
-    let falls = exp_four(x.map(|x| -x));
-    let near: [f32; 4] = std::array::from_fn(|p| {
+    let falls = exp_four(four(|p| -x[p]));
+    let near = four(|p| {
         let y = x[p] * (1.0 / SEAM);
         horner(&NEAR, y * y) * falls[p]
     });
-    let far = x.map(|x| {
-        let x = if x > SEAM { x } else { SEAM };
+    let far = four(|p| {
+        let x = if x[p] > SEAM { x[p] } else { SEAM };
         horner(&FAR, SEAM / x) / x.sqrt()
     });
-    std::array::from_fn(|p| if x[p] < SEAM { near[p] } else { far[p] })
+    four(|p| if x[p] < SEAM { near[p] } else { far[p] })
 }
 
 /// The polynomial whose coefficients are given from the highest power down.
 #[inline(always)]
 fn horner<const N: usize>(coefficients: &[f32; N], x: f32) -> f32 {
-    coefficients.iter().fold(0.0, |sum, c| sum * x + c)
+    let mut sum = coefficients[0];
+    for c in &coefficients[1..] {
+        sum = sum * x + c;
+    }
+    sum
 }
 
 /// To double precision: the power series, whose terms are all positive, up to 30; the asymptotic

@@ -7,7 +7,7 @@ use crate::attenuation::Chord;
 use crate::azimuthal::{TrimmedLogistic, wrapped};
 use crate::longitudinal::{Inclination, Longitudinal, Mirrors};
 use crate::parameters::{HairParameters, SMALLEST_ROUGHNESS};
-use crate::real::Real;
+use crate::real::{Real, four};
 
 /// Position of the residual lobe, the only one without an azimuth of its own.
 const RESIDUAL: usize = 3;
@@ -55,9 +55,13 @@ impl<T: Real> Fibre<T> {
         let h = h.max(-T::ONE).min(T::ONE);
         let (theta_o, turn_o) = inclination_and_turn(wo);
         let chord = Chord::new(self.eta2_minus_1, theta_o.cos.min(T::ONE), h);
-        let channels = self.sigma_a.map(|sigma| chord.attenuations(sigma));
-        let attenuations = std::array::from_fn(|p| {
-            std::array::from_fn(|channel| channels[channel][p] * self.lobe_weights[p])
+        let [red, green, blue] = self.sigma_a;
+        let red = chord.attenuations(red);
+        let green = chord.attenuations(green);
+        let blue = chord.attenuations(blue);
+        let attenuations = four(|p| {
+            let weight = self.lobe_weights[p];
+            [red[p] * weight, green[p] * weight, blue[p] * weight]
         });
         Hit {
             turn_o,
@@ -108,7 +112,10 @@ fn exit_azimuths<T: Real>(chord: &Chord<T>) -> [T; 4] {
 /// the weighted attenuations there: a path's throughput is bounded by 1 in every channel, and no
 /// lobe that is bright in one channel is starved because it is dark in the others.
 fn probabilities<T: Real>(attenuations: &[[T; 3]; 4]) -> [T; 4] {
-    let most = attenuations.map(|[r, g, b]| r.max(g).max(b));
+    let most = four(|p| {
+        let [red, green, blue] = attenuations[p];
+        red.max(green).max(blue)
+    });
     let sum = most[0] + most[1] + most[2] + most[3];
     if sum > T::ZERO { most.map(|most| most / sum) } else { [T::ZERO; 4] }
 }
@@ -137,23 +144,27 @@ pub(crate) struct Hit<T> {
 
 impl<T: Real> Hit<T> {
     /// M_p N_p of each lobe, all four in step: that is what makes it fast.
-    #[inline]
+    #[inline(always)]
     fn densities(&self, wi: [T; 3]) -> [T; 4] {
         let [along, y, z] = wi;
         let theta_i = Inclination { sin: along, cos: (y * y + z * z).sqrt() };
         let [cos_o, sin_o] = self.turn_o;
         let phi = (z * cos_o - y * sin_o).atan2(y * cos_o + z * sin_o);
-        let mut around = self.spread.around.densities(self.centres.map(|centre| wrapped(phi - centre)));
+        let mut around = self.spread.around.densities(four(|p| wrapped(phi - self.centres[p])));
         around[RESIDUAL] = T::ONE / T::TAU;
         let along = self.spread.along.densities(theta_i, &self.mirrors);
-        std::array::from_fn(|p| around[p] * along[p])
+        four(|p| around[p] * along[p])
     }
 
     /// f cos(theta_i) per lobe and channel, and the density over solid angle.
     #[inline]
     pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 4], T) {
         let densities = self.densities(wi);
-        let values = std::array::from_fn(|p| self.attenuations[p].map(|carried| carried * densities[p]));
+        let values = four(|p| {
+            let [red, green, blue] = self.attenuations[p];
+            let density = densities[p];
+            [red * density, green * density, blue * density]
+        });
         (values, self.mixed(&densities))
     }
 

@@ -1,7 +1,7 @@
 //! How light spreads along the fibre: M_p of d'Eon et al. 2011, "An Energy-Conserving Hair
 //! Reflectance Model" (doi:10.1111/j.1467-8659.2011.01976.x).
 
-use crate::real::Real;
+use crate::real::{Real, four};
 
 /// The sine and cosine of an inclination against the fibre's normal plane; `cos >= 0`.
 #[derive(Debug, Clone, Copy)]
@@ -13,6 +13,7 @@ pub(crate) struct Inclination<T> {
 impl<T: Real> Inclination<T> {
     /// Turned by an angle given by its sine and cosine. Past the pole the cosine is folded back
     /// to the near side, so that a cone stays a cone.
+    #[inline]
     pub fn turned(self, (sin, cos): (T, T)) -> Self {
         Inclination {
             sin: (self.sin * cos + self.cos * sin).max(-T::ONE).min(T::ONE),
@@ -66,16 +67,15 @@ impl<T: Real> Longitudinal<T> {
     /// directions and scaling I0 leaves nothing to cancel, and needs no case for small variance.
     #[inline(always)]
     pub fn densities(&self, theta_i: Inclination<T>, mirrors: &Mirrors<T>) -> [T; 4] {
-        let falls = T::exp_four(std::array::from_fn(|p| {
+        let falls = T::exp_four(four(|p| {
             let across = theta_i.cos - mirrors.coss[p];
             let along = theta_i.sin + mirrors.sins[p];
             let half_chord = T::of(0.5) * (across * across + along * along);
             -half_chord * self.inverse_variances[p]
         }));
-        let bessels = T::scaled_bessel_i0_four(std::array::from_fn(|p| {
-            theta_i.cos * mirrors.coss[p] * self.inverse_variances[p]
-        }));
-        std::array::from_fn(|p| falls[p] * bessels[p] * self.scales[p])
+        let bessels =
+            T::scaled_bessel_i0_four(four(|p| theta_i.cos * mirrors.coss[p] * self.inverse_variances[p]));
+        four(|p| falls[p] * bessels[p] * self.scales[p])
     }
 
     /// An inclination distributed as lobe `p`'s density says, after d'Eon et al. 2013.

@@ -5,6 +5,13 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::{bessel, exponential};
 
+/// One value per lobe. Written out, and not `array::from_fn` or `map`, which stay calls and keep the
+/// four from becoming one vector.
+#[inline(always)]
+pub(crate) fn four<T>(value: impl Fn(usize) -> T) -> [T; 4] {
+    [value(0), value(1), value(2), value(3)]
+}
+
 /// `f32` for rendering, `f64` to know how good that is.
 pub(crate) trait Real:
     Copy
@@ -52,9 +59,11 @@ macro_rules! real {
             const TAU: Self = std::$real::consts::TAU;
             const TAU_REST: Self = $tau_rest;
 
+            #[inline(always)]
             fn of(value: f64) -> Self {
                 value as $real
             }
+            #[inline(always)]
             fn abs(self) -> Self {
                 $real::abs(self)
             }
@@ -64,6 +73,7 @@ macro_rules! real {
             fn min(self, other: Self) -> Self {
                 $real::min(self, other)
             }
+            #[inline(always)]
             fn sqrt(self) -> Self {
                 $real::sqrt(self)
             }
@@ -101,5 +111,5 @@ macro_rules! real {
 }
 
 real!(f32, -1.748_455_6e-7, exponential::exp_four, bessel::scaled_i0_four);
-real!(f64, 2.449_293_598_294_706_4e-16, |x: [f64; 4]| x.map(f64::exp), |x: [f64; 4]| x
+real!(f64, 2.449_293_598_294_706_4e-16, |x: [f64; 4]| four(|p| x[p].exp()), |x: [f64; 4]| x
     .map(bessel::scaled_i0_double));
