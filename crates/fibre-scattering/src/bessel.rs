@@ -1,6 +1,8 @@
 //! The modified Bessel function of order zero, scaled: `exp(-x) I0(x)`, which never overflows.
 
-use crate::exponential::exp_four;
+use glam::Vec4;
+
+use crate::exponential::{exp_four, horner};
 use crate::real::four;
 
 /// To single precision: Abramowitz and Stegun 9.8.1 and 9.8.2, both scaled.
@@ -8,7 +10,7 @@ use crate::real::four;
 /// `x >= 0`; the relative error stays below 6e-7. Both ranges are worked out and one is kept: four
 /// lobes fall in either, and a branch for each would cost more.
 #[inline(always)]
-pub(crate) fn scaled_i0_four(x: [f32; 4]) -> [f32; 4] {
+pub(crate) fn scaled_i0_four(x: Vec4) -> Vec4 {
     const NEAR: [f32; 7] =
         [0.004_581_3, 0.036_076_8, 0.265_973_2, 1.206_749_2, 3.089_942_4, 3.515_622_9, 1.0];
     const FAR: [f32; 9] = [
@@ -22,27 +24,14 @@ pub(crate) fn scaled_i0_four(x: [f32; 4]) -> [f32; 4] {
         0.013_285_92,
         0.398_942_3,
     ];
-    const SEAM: f32 = 3.75;
-    let falls = exp_four(four(|p| -x[p]));
-    let near = four(|p| {
-        let y = x[p] * (1.0 / SEAM);
-        horner(&NEAR, y * y) * falls[p]
-    });
-    let far = four(|p| {
-        let x = if x[p] > SEAM { x[p] } else { SEAM };
-        horner(&FAR, SEAM / x) / x.sqrt()
-    });
-    four(|p| if x[p] < SEAM { near[p] } else { far[p] })
-}
-
-/// The polynomial whose coefficients are given from the highest power down.
-#[inline(always)]
-fn horner<const N: usize>(coefficients: &[f32; N], x: f32) -> f32 {
-    let mut sum = coefficients[0];
-    for c in &coefficients[1..] {
-        sum = sum * x + c;
-    }
-    sum
+    const SEAM: Vec4 = Vec4::splat(3.75);
+    let y = x.min(SEAM) / SEAM;
+    let near = horner(&NEAR, y * y) * exp_four(-x);
+    let beyond = x.max(SEAM);
+    let root = beyond.to_array();
+    let root = Vec4::from_array(four(|p| root[p].sqrt()));
+    let far = horner(&FAR, SEAM / beyond) / root;
+    Vec4::select(x.cmplt(SEAM), near, far)
 }
 
 /// To double precision: the power series, whose terms are all positive, up to 30; the asymptotic
@@ -72,6 +61,8 @@ pub(crate) fn scaled_i0_double(x: f64) -> f64 {
 
 #[cfg(test)]
 mod tests {
+    use glam::Vec4;
+
     use super::{scaled_i0_double, scaled_i0_four};
 
     #[test]
@@ -80,10 +71,10 @@ mod tests {
         for step in 0..400_000 {
             let x = 10.0_f32.powf(step as f32 * 3e-5 - 4.0);
             let exact = scaled_i0_double(f64::from(x));
-            worst = worst.max((f64::from(scaled_i0_four([x; 4])[0]) / exact - 1.0).abs());
+            worst = worst.max((f64::from(scaled_i0_four(Vec4::splat(x)).x) / exact - 1.0).abs());
         }
         assert!(worst < 6e-7, "{worst}");
-        assert_eq!(scaled_i0_four([0.0; 4]), [1.0; 4]);
+        assert_eq!(scaled_i0_four(Vec4::ZERO), Vec4::ONE);
     }
 
     /// Published values: Abramowitz and Stegun, table 9.8, and the seam of the two series.

@@ -110,6 +110,8 @@ macro_rules! real {
     };
 }
 
-real!(f32, -1.748_455_6e-7, exponential::exp_four, bessel::scaled_i0_four);
+real!(f32, -1.748_455_6e-7, |x: [f32; 4]| exponential::exp_four(x.into()).to_array(), |x: [f32; 4]| {
+    bessel::scaled_i0_four(x.into()).to_array()
+});
 real!(f64, 2.449_293_598_294_706_4e-16, |x: [f64; 4]| four(|p| x[p].exp()), |x: [f64; 4]| x
     .map(bessel::scaled_i0_double));

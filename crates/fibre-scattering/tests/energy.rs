@@ -38,7 +38,7 @@ fn extremes() -> impl Iterator<Item = Case> {
 /// noise that the quadrature averages, with more nodes where the lobes are that narrow.
 fn scattered_single(case: &Case) -> [f64; 4] {
     let narrow = case.beta_m.min(case.beta_n) < 0.005;
-    scattered(case, if narrow { 12 } else { 1 }, case.values_single())
+    scattered(case, if narrow { 6 } else { 1 }, case.values_single())
 }
 
 #[test]

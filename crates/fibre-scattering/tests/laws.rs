@@ -63,7 +63,7 @@ fn uniforms() -> impl Strategy<Value = [f32; 4]> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(20_000))]
+    #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::with_cases(20_000) })]
 
     #[test]
     fn nothing_is_ever_nan(
