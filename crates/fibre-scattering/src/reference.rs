@@ -4,8 +4,8 @@ use crate::error::ScatteringError;
 use crate::fibre::{Fibre, Hit};
 use crate::parameters::HairParameters;
 
-/// [`HairBcsdf`](crate::HairBcsdf) in `f64`, for tests and for offline figures. About five times
-/// slower; the formulas are the same code.
+/// [`HairBcsdf`](crate::HairBcsdf) in `f64`, for tests and for offline figures. Slow: its Bessel
+/// function is a series; the other formulas are the same code.
 #[derive(Debug, Clone, Copy)]
 pub struct ReferenceBcsdf {
     fibre: Fibre<f64>,

@@ -114,9 +114,8 @@ proptest! {
     }
 }
 
-/// The lobes see `wo` refracted and not `wi`, so a fibre at one offset is not reciprocal; but R
-/// without tilt is, averaged over the offset, where Fresnel's equations see both angles alike:
-/// when both inclinations have the same size.
+/// At one offset the model is not reciprocal: its attenuations see `wo` and not `wi`. Averaged over
+/// offsets, without tilt, it is where both inclinations have the same size.
 #[test]
 fn averaged_over_offsets_equal_inclinations_are_reciprocal() {
     let bcsdf = HairBcsdf::new(&HairParameters {
