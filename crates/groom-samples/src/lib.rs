@@ -1,1 +1,27 @@
 //! Procedural heads of hair: straight, wavy and curly.
+//!
+//! Made for tests and demonstrations: hair that is nobody's property, of any size, the same bits for
+//! the same options on every machine. The head is an ellipsoid about 20 cm tall around the origin,
+//! y up, face towards +z, in metres; hair grows on its scalp, parted in the middle, combed away from
+//! the face and falling by its weight without passing through the head.
+//!
+//! ```
+//! use groom_samples::{Options, Style, hair};
+//!
+//! let groom = hair(&Options { style: Style::Curly, strands: 100, points: 20, ..Options::default() })?;
+//! assert_eq!(groom.strand_count(), 100);
+//! # Ok::<(), groom_samples::SampleError>(())
+//! ```
+
+mod dress;
+mod grow;
+mod hair;
+mod head;
+mod mesh;
+mod options;
+mod trigonometry;
+
+pub use hair::hair;
+pub use head::HEAD_RADII;
+pub use mesh::head_obj;
+pub use options::{Options, SampleError, Style};
