@@ -1,5 +1,7 @@
 //! HAIR files through the groom and back come out with the same bytes.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
+
 mod support;
 
 use cyhair::{HairFile, Header};

@@ -1,5 +1,7 @@
 //! glTF and USD: what is in the bytes, without other people's programs (those run end to end).
 
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
+
 mod support;
 
 use glam::Vec3;

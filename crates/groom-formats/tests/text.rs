@@ -1,5 +1,7 @@
 //! Text: every bit survives, faults are found at their line and column.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
+
 mod support;
 
 use groom::{Groom, UpAxis, names};

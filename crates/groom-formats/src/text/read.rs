@@ -166,7 +166,9 @@ impl Parser<'_> {
             let values = per_vertex(Values::Float(self.transparencies));
             groom.set_attribute(names::TRANSPARENCY, values).map_err(fault)?;
         }
-        Ok(Loaded { groom, warnings: self.warnings, repairs: Vec::new(), hair: None })
+        let repairs = if options.repair { groom.repair() } else { Vec::new() };
+        let repairs = repairs.iter().map(ToString::to_string).collect();
+        Ok(Loaded { groom, warnings: self.warnings, repairs, hair: None })
     }
 
     fn fault<T>(&self, column: usize, found: String, expected: &'static str) -> Result<T, FormatError> {

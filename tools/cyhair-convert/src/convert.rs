@@ -1,0 +1,126 @@
+//! `cyhair-convert IN OUT`.
+
+use std::io::{self, Write};
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::Result;
+use command_line::progress_bar;
+use groom::{Groom, GroomError};
+use groom_formats::{Format, Warning, WriteOptions, write, write_to};
+use serde_json::json;
+use whole_file::WholeFile;
+
+use crate::args::{Args, is_stream};
+use crate::counted::Counted;
+use crate::load::{Input, load};
+use crate::report;
+
+pub(crate) fn run(args: &Args) -> Result<()> {
+    let start = Instant::now();
+    let (output, format) = args.target()?;
+    let Input { name, format: input_format, bytes: input_bytes, loaded } = load(args)?;
+    let mut warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    if !args.json {
+        report::say_all("repaired", &loaded.repairs)?;
+        report::say_all("warning", &warnings)?;
+    }
+    let groom = edit(loaded.groom, args)?;
+    let options = WriteOptions { hair: loaded.hair };
+    let (lost, output_bytes) = store(&groom, output, format, &options)?;
+    let lost: Vec<String> = lost.iter().map(ToString::to_string).collect();
+    let seconds = start.elapsed().as_secs_f64();
+    if !args.json {
+        report::say_all("warning", &lost)?;
+        let target = if is_stream(output) { "standard output".into() } else { output.display().to_string() };
+        writeln!(
+            io::stderr().lock(),
+            "{name} -> {target}: {} strands, {} points, {:.1} MB in {seconds:.2} s",
+            groom.strand_count(),
+            groom.point_count(),
+            output_bytes as f64 / 1e6
+        )?;
+        return Ok(());
+    }
+    warnings.extend(lost);
+    report::print_json(&json!({
+        "input": name,
+        "input_format": input_format.name(),
+        "input_bytes": input_bytes,
+        "output": output.display().to_string(),
+        "output_format": format.name(),
+        "output_bytes": output_bytes,
+        "strands": groom.strand_count(),
+        "points": groom.point_count(),
+        "seconds": seconds,
+        "warnings": warnings,
+        "repairs": loaded.repairs,
+    }))
+}
+
+/// Does what the options ask for, in the order of the help.
+fn edit(mut groom: Groom, args: &Args) -> Result<Groom, GroomError> {
+    if let Some(stride) = args.stride.filter(|&stride| stride > 1) {
+        groom = groom.subsample_by_stride(stride as usize)?;
+    }
+    if let Some(most) = args.max_strands.map(|most| most as usize).filter(|&most| most < groom.strand_count())
+    {
+        groom = groom.subsample_to(most);
+    }
+    if let Some(points) = args.resample {
+        groom = groom.resample_by_count(points as usize)?;
+    }
+    if let Some(factor) = args.scale {
+        groom.scale(factor)?;
+    }
+    if let Some(up) = args.up {
+        groom.turn_to(up.into());
+    }
+    if let Some(color) = args.color {
+        groom.set_color(color)?;
+    }
+    if let (Some(root), Some(tip)) = (args.root_color, args.tip_color) {
+        groom.ramp_color(root, tip)?;
+    }
+    if let Some(width) = args.width {
+        groom.set_width(width)?;
+    }
+    if let (Some(root), Some(tip)) = (args.root_width, args.tip_width) {
+        groom.ramp_width(root, tip)?;
+    }
+    Ok(groom)
+}
+
+/// Writes the groom; returns what the format could not hold and how many bytes were written.
+fn store(
+    groom: &Groom,
+    output: &Path,
+    format: Format,
+    options: &WriteOptions,
+) -> Result<(Vec<Warning>, u64)> {
+    let bar = progress_bar(groom.point_count() as u64 * bytes_a_point(format), "writing");
+    if is_stream(output) {
+        let mut stream = Counted::new(io::stdout().lock(), bar);
+        let warnings = write_to(format, groom, &mut stream, "standard output", options)?;
+        return Ok((warnings, stream.finish().1));
+    }
+    if !format.streams() {
+        let warnings = write(groom, output, options)?;
+        let size = |path: &Path| path.metadata().map_or(0, |m| m.len());
+        return Ok((warnings, size(output) + size(&output.with_extension("bin"))));
+    }
+    let mut stream = Counted::new(WholeFile::create(output)?, bar);
+    let warnings = write_to(format, groom, &mut stream, &output.display().to_string(), options)?;
+    let (file, bytes) = stream.finish();
+    file.commit()?;
+    Ok((warnings, bytes))
+}
+
+/// About how many bytes a point takes, for the bar.
+fn bytes_a_point(format: Format) -> u64 {
+    match format {
+        Format::Hair | Format::Gltf | Format::Glb => 28,
+        Format::Usda => 70,
+        _ => 60,
+    }
+}
