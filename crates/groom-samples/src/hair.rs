@@ -29,7 +29,7 @@ fn shape(style: Style) -> Shape {
             Shape { length: 0.27, locks: 170, gathering: 0.6, reach: 0.0065, pitch: 0.062, winding: 0.25 }
         }
         Style::Curly => {
-            Shape { length: 0.25, locks: 190, gathering: 0.75, reach: 0.0095, pitch: 0.042, winding: 1.0 }
+            Shape { length: 0.25, locks: 190, gathering: 0.75, reach: 0.011, pitch: 0.060, winding: 1.0 }
         }
     }
 }
