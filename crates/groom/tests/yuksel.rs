@@ -17,7 +17,8 @@ fn straight_hair_has_its_known_figures() {
     // This crate knows no files: 10,000 strands of 16 points follow the 128 bytes of header.
     let float = |at: usize| f32::from_le_bytes(bytes[at..at + 4].try_into().unwrap());
     let point = |i: usize| Vec3::new(float(128 + 12 * i), float(132 + 12 * i), float(136 + 12 * i));
-    let groom = Groom::new((0..=10_000).map(|i| i * 16).collect(), (0..160_000).map(point).collect()).unwrap();
+    let groom =
+        Groom::new((0..=10_000).map(|i| i * 16).collect(), (0..160_000).map(point).collect()).unwrap();
 
     let figures = Statistics::of(&groom);
     let near = |a: f64, b: f64, by: f64| assert!((a - b).abs() <= by, "{a} is not {b}");
