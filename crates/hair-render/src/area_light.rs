@@ -56,7 +56,11 @@ impl AreaLight {
             return Err(RenderError::argument("area light's area", area, "above 0 and finite"));
         }
         if self.edge_u.dot(self.edge_v).abs() > 1e-3 * self.edge_u.length() * self.edge_v.length() {
-            return Err(RenderError::argument("area light's edges", "not square to each other", "a rectangle"));
+            return Err(RenderError::argument(
+                "area light's edges",
+                "not square to each other",
+                "a rectangle",
+            ));
         }
         if !(self.radiance.is_finite() && self.radiance.min_element() >= 0.0) {
             return Err(RenderError::argument("area light's radiance", self.radiance, "finite, at least 0"));
@@ -149,7 +153,8 @@ mod tests {
         let rectangle = Rectangle::new(&light, DVec3::ZERO);
         let from = Vec3::new(0.1, -0.3, 0.2);
         for i in 0..100 {
-            let seen = rectangle.sample(from, (i as f32 + 0.5) / 100.0, (i * 37 % 100) as f32 / 100.0).unwrap();
+            let seen =
+                rectangle.sample(from, (i as f32 + 0.5) / 100.0, (i * 37 % 100) as f32 / 100.0).unwrap();
             let hit = rectangle.intersect(from, seen.direction).unwrap();
             assert!((hit.distance - seen.distance).abs() < 1e-5 && (hit.pdf / seen.pdf - 1.0).abs() < 1e-4);
         }

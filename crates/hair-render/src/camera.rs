@@ -130,8 +130,8 @@ impl Camera {
     pub(crate) fn lens(&self, center: DVec3, width: u32, height: u32) -> Lens {
         let axes = self.axes();
         let pixel = 2.0 * (0.5 * self.vertical_fov).tan() / f64::from(height);
-        let corner =
-            axes.forward - axes.right * (0.5 * f64::from(width) * pixel) + axes.up * (0.5 * f64::from(height) * pixel);
+        let corner = axes.forward - axes.right * (0.5 * f64::from(width) * pixel)
+            + axes.up * (0.5 * f64::from(height) * pixel);
         Lens {
             origin: (self.position - center).as_vec3(),
             corner: corner.as_vec3(),

@@ -60,7 +60,8 @@ fn read_exr(path: &Path, file: BufReader<File>) -> Result<Environment, RenderErr
         height: usize,
         values: Vec<Vec3>,
     }
-    let fits = |size: openexr::Vec2<usize>| check_size(path, size.width() as u64, size.height() as u64).is_ok();
+    let fits =
+        |size: openexr::Vec2<usize>| check_size(path, size.width() as u64, size.height() as u64).is_ok();
     let read = openexr::read()
         .no_deep_data()
         .largest_resolution_level()

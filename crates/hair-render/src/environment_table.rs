@@ -85,7 +85,11 @@ fn push_cumulated(to: &mut Vec<f32>, weights: impl ExactSizeIterator<Item = f64>
         }))
         .collect();
     // A black row is never chosen; any rising shares keep the search in range.
-    to.extend(sums.iter().enumerate().map(|(i, s)| (if sum > 0.0 { s / sum } else { i as f64 / count as f64 }) as f32));
+    to.extend(
+        sums.iter()
+            .enumerate()
+            .map(|(i, s)| (if sum > 0.0 { s / sum } else { i as f64 / count as f64 }) as f32),
+    );
     to[start + count] = 1.0;
     sum
 }

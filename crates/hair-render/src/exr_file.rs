@@ -126,7 +126,9 @@ fn samples(values: impl Iterator<Item = f32>, precision: Precision) -> FlatSampl
     match precision {
         Precision::Float => FlatSamples::F32(values.collect()),
         // Too bright for a half is stored as the brightest half: infinities break what comes after.
-        Precision::Half => FlatSamples::F16(values.map(|v| f16::from_f32(v.clamp(-65504.0, 65504.0))).collect()),
+        Precision::Half => {
+            FlatSamples::F16(values.map(|v| f16::from_f32(v.clamp(-65504.0, 65504.0))).collect())
+        }
     }
 }
 
@@ -143,7 +145,12 @@ fn push_color(
 }
 
 /// Writes colours alone, as an environment wants them.
-pub(crate) fn write_rgb(path: &Path, width: usize, pixels: &[Vec3], precision: Precision) -> Result<(), RenderError> {
+pub(crate) fn write_rgb(
+    path: &Path,
+    width: usize,
+    pixels: &[Vec3],
+    precision: Precision,
+) -> Result<(), RenderError> {
     let mut channels = openexr::SmallVec::new();
     push_color(&mut channels, "", pixels, precision);
     let mut attributes = openexr::LayerAttributes::default();

@@ -42,8 +42,8 @@ impl Fibres {
             Transparency::Ignored => None,
             Transparency::Stochastic => groom.attribute(names::TRANSPARENCY).and_then(transparency),
         };
-        let by_vertex = matches!(absorption, Varying::Vertex(_))
-            || matches!(transparency, Some(Varying::Vertex(_)));
+        let by_vertex =
+            matches!(absorption, Varying::Vertex(_)) || matches!(transparency, Some(Varying::Vertex(_)));
         let offsets = if by_vertex { groom.offsets().to_vec() } else { Vec::new() };
         Ok(Fibres { bcsdf, absorption, transparency, offsets })
     }
@@ -75,7 +75,9 @@ impl Fibres {
 /// Strand, segment and how far along it.
 fn place(hit: &Hit) -> Option<(u32, u32, f32)> {
     match (hit.primitive, hit.kind) {
-        (Primitive::Segment { strand, segment, .. }, HitKind::Segment { u, .. }) => Some((strand, segment, u)),
+        (Primitive::Segment { strand, segment, .. }, HitKind::Segment { u, .. }) => {
+            Some((strand, segment, u))
+        }
         _ => None,
     }
 }

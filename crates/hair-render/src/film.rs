@@ -24,9 +24,8 @@ pub(crate) struct Developed {
     pub parts: [Vec3; PARTS],
     pub beauty: Vec3,
     pub alpha: f32,
-    /// Mean over the channels of the estimated variance of the beauty over its square + 0.01; `None`
-    /// when a half is empty.
-    pub relative_variance: Option<f64>,
+    /// Estimated variance of the beauty; `None` when a half is empty.
+    pub variance: Option<DVec3>,
 }
 
 impl Pixel {
@@ -53,13 +52,13 @@ impl Pixel {
             parts: parts.map(|p| p.as_vec3()),
             beauty: beauty.as_vec3(),
             alpha: ((a.alpha + b.alpha) / count) as f32,
-            relative_variance: self.relative_variance(beauty),
+            variance: self.variance(),
         }
     }
 
     /// With halves of n and m samples, (A - B)^2 estimates sigma^2 (1/n + 1/m), and the mean of all
     /// has sigma^2 / (n + m): the factor between is n m / (n + m)^2, which is 1/4 for equal halves.
-    fn relative_variance(&self, beauty: DVec3) -> Option<f64> {
+    fn variance(&self) -> Option<DVec3> {
         let [a, b] = &self.halves;
         if a.count == 0 || b.count == 0 {
             return None;
@@ -67,9 +66,7 @@ impl Pixel {
         let (n, m) = (f64::from(a.count), f64::from(b.count));
         let mean = |half: &Half, count: f64| half.parts.iter().sum::<DVec3>() / count;
         let difference = mean(a, n) - mean(b, m);
-        let variance = difference * difference * (n * m / ((n + m) * (n + m)));
-        let relative = variance / (beauty * beauty + 0.01);
-        Some(relative.element_sum() / 3.0)
+        Some(difference * difference * (n * m / ((n + m) * (n + m))))
     }
 }
 
@@ -92,8 +89,8 @@ mod tests {
         }
         let developed = pixel.develop();
         assert_eq!((developed.beauty, developed.alpha), (Vec3::splat(4.0), 1.0));
-        let expected = 4.5f64.powi(2) * (2.0 / 9.0) / 16.01;
-        assert!((developed.relative_variance.unwrap() - expected).abs() < 1e-12);
+        let expected = 4.5f64.powi(2) * (2.0 / 9.0);
+        assert!((developed.variance.unwrap().y - expected).abs() < 1e-12);
     }
 
     #[test]
@@ -102,6 +99,6 @@ mod tests {
         pixel.add(0, &sample(f32::NAN));
         pixel.add(0, &sample(1.0));
         assert_eq!((pixel.rejected, pixel.develop().beauty), (1, Vec3::splat(1.0)));
-        assert_eq!(pixel.develop().relative_variance, None);
+        assert_eq!(pixel.develop().variance, None);
     }
 }

@@ -39,6 +39,7 @@ mod environment;
 mod environment_file;
 mod environment_table;
 mod error;
+mod estimate;
 mod explain;
 mod exr_file;
 mod fibres;

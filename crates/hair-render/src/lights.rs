@@ -83,7 +83,13 @@ impl Lights {
 
     /// Everything that shines along a ray, each with its radiance and the density with which
     /// [`Lights::sample`] finds it; the environment only when nothing was hit.
-    pub fn along(&self, origin: Vec3, direction: Vec3, hit_distance: Option<f32>, mut each: impl FnMut(Vec3, f32)) {
+    pub fn along(
+        &self,
+        origin: Vec3,
+        direction: Vec3,
+        hit_distance: Option<f32>,
+        mut each: impl FnMut(Vec3, f32),
+    ) {
         let reach = hit_distance.unwrap_or(f32::INFINITY);
         for (index, rectangle) in self.rectangles.iter().enumerate() {
             if let Some(seen) = rectangle.intersect(origin, direction).filter(|seen| seen.distance < reach) {
@@ -111,7 +117,7 @@ mod tests {
         let lights = Lights::new(Some(environment), &lights, DVec3::ZERO);
         let mut kinds = [0; 2];
         for i in 0..3000 {
-            let u = [0.754_877_67f32, 0.569_840_3, 0.438_579].map(|step| (step * i as f32).fract());
+            let u = [0.754_877_67f32, 0.569_840_3, 0.438_579].map(|step| (step * (i as f32 + 0.5)).fract());
             let Some(seen) = lights.sample(Vec3::ZERO, u) else { continue };
             kinds[usize::from(seen.distance.is_infinite())] += 1;
             let mut found = false;

@@ -91,9 +91,14 @@ impl<'a> PathTracer<'a> {
     /// Follows the path from its first hit. The first scattering keeps its lobes apart; all that comes
     /// after it is found once and shared by them, so that the parts add up and none is noisier than
     /// the whole.
-    fn scatter_on(&mut self, first_hit: Hit, first_direction: Vec3, sampler: &Sampler) -> (FirstKind, Values) {
+    fn scatter_on(
+        &mut self,
+        first_hit: Hit,
+        first_direction: Vec3,
+        sampler: &Sampler,
+    ) -> (FirstKind, Values) {
         let (mut hit, mut direction) = (first_hit, first_direction);
-        let mut kind = None;
+        let mut kind = FirstKind::Surface;
         let mut direct: Values = [Vec3::ZERO; 4];
         let mut weights: Values = [Vec3::ZERO; 4];
         let mut later = Vec3::ZERO;
@@ -103,10 +108,9 @@ impl<'a> PathTracer<'a> {
         for depth in 0.. {
             let [scatter_set, light_set, pass_set] = sets_of(depth);
             let vertex = self.vertex(&hit, -direction);
-            let kind = kind.get_or_insert(match vertex {
-                Vertex::Fibre(_) => FirstKind::Fibre,
-                Vertex::Surface(_) => FirstKind::Surface,
-            });
+            if depth == 0 {
+                kind = vertex.kind();
+            }
             let [pick, u, v, survive] = sampler.four(light_set);
             let start = vertex.start(&hit);
             if self.next_event {
@@ -141,14 +145,11 @@ impl<'a> PathTracer<'a> {
             later += throughput * self.emitted(&ray, pdf, next.as_ref());
             match next {
                 Some(next) if depth < self.settings.max_bounces => (hit, direction) = (next, wi),
-                _ => {
-                    let _ = kind;
-                    break;
-                }
+                _ => break,
             }
         }
         let total = std::array::from_fn(|lobe| direct[lobe] + weights[lobe] * later);
-        (kind.unwrap_or(FirstKind::Surface), total)
+        (kind, total)
     }
 
     fn vertex(&self, hit: &Hit, toward: Vec3) -> Vertex {
@@ -253,6 +254,13 @@ enum FirstKind {
 }
 
 impl Vertex {
+    fn kind(&self) -> FirstKind {
+        match self {
+            Vertex::Fibre(_) => FirstKind::Fibre,
+            Vertex::Surface(_) => FirstKind::Surface,
+        }
+    }
+
     /// Where scattered rays start: on a fibre at the hit (the tracer knows which fibre is left), off a
     /// surface by a few units in the last place, so that its neighbour triangles are not hit.
     fn start(&self, hit: &Hit) -> Vec3 {

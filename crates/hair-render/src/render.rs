@@ -3,15 +3,16 @@
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Instant;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
 use crate::camera::Lens;
+use crate::estimate;
 use crate::film::{Developed, Pixel};
 use crate::filter::Filter;
 use crate::path::{PathTracer, RayCounts};
 use crate::sampler::Sampler;
-use crate::{Background, Camera, Frame, FrameReport, Progress, RenderError, RenderSettings, Scene};
+use crate::{Camera, Frame, FrameReport, Progress, RenderError, RenderSettings, Scene};
 
 /// Pixels along a tile's edge: small enough that the last tiles keep every core busy.
 const TILE: u32 = 16;
@@ -119,7 +120,7 @@ fn assemble(settings: &RenderSettings, tiles: &[Tile]) -> Frame {
     let mut beauty = vec![Vec3::ZERO; count];
     let mut alpha = vec![0.0; count];
     let mut passes: Vec<_> = settings.aovs.iter().map(|aov| (aov, vec![Vec3::ZERO; count])).collect();
-    let mut error = ErrorEstimate::default();
+    let mut variance = vec![DVec3::ZERO; if settings.spp >= 2 { count } else { 0 }];
     for tile in tiles {
         for (i, pixel) in tile.pixels.iter().enumerate() {
             let x = tile.x as usize + i % tile.width as usize;
@@ -130,12 +131,12 @@ fn assemble(settings: &RenderSettings, tiles: &[Tile]) -> Frame {
             for (aov, pixels) in &mut passes {
                 pixels[at] = pixel.parts[*aov as usize];
             }
-            if pixel.alpha > 0.0 || settings.background == Background::Visible {
-                error.add(pixel.relative_variance);
+            if let (Some(kept), Some(found)) = (variance.get_mut(at), pixel.variance) {
+                *kept = found;
             }
         }
     }
-    let rel_mse = if settings.spp >= 2 { Some(error.mean()) } else { None };
+    let rel_mse = (settings.spp >= 2).then(|| estimate::rel_mse(width as usize, &beauty, &alpha, &variance));
     let report = FrameReport {
         seconds: 0.0,
         spp: settings.spp,
@@ -149,22 +150,4 @@ fn assemble(settings: &RenderSettings, tiles: &[Tile]) -> Frame {
         relative_error: rel_mse.map(f64::sqrt),
     };
     Frame { width, height, beauty, alpha, passes, report }
-}
-
-/// Mean of the pixels' relative variances; 0 for a picture without a covered pixel.
-#[derive(Default)]
-struct ErrorEstimate {
-    sum: f64,
-    pixels: u64,
-}
-
-impl ErrorEstimate {
-    fn add(&mut self, relative_variance: Option<f64>) {
-        self.sum += relative_variance.unwrap_or(0.0);
-        self.pixels += 1;
-    }
-
-    fn mean(&self) -> f64 {
-        self.sum / self.pixels.max(1) as f64
-    }
 }

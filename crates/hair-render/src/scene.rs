@@ -78,6 +78,14 @@ impl Scene {
     }
 }
 
+impl SceneDescription {
+    /// The box about all hair and meshes in world metres, Y up; `None` when there is nothing.
+    #[must_use]
+    pub fn bounds(&self) -> Option<Bounds> {
+        bounds_of(&self.hair, &self.meshes)
+    }
+}
+
 /// Turns a groom's numbers into world metres, Y up.
 fn to_world(groom: &Groom, point: Vec3) -> DVec3 {
     groom.up_axis.rotate(point, UpAxis::Y).as_dvec3() * groom.meters_per_unit

@@ -86,7 +86,11 @@ impl RenderSettings {
             return Err(RenderError::argument("spp", 0, "at least 1 sample a pixel"));
         }
         if !(self.filter_radius > 0.0 && self.filter_radius <= 16.0) {
-            return Err(RenderError::argument("filter radius", self.filter_radius, "above 0, at most 16 pixels"));
+            return Err(RenderError::argument(
+                "filter radius",
+                self.filter_radius,
+                "above 0, at most 16 pixels",
+            ));
         }
         if self.threads == Some(0) {
             return Err(RenderError::argument("threads", 0, "at least 1"));

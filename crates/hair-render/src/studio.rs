@@ -21,9 +21,19 @@ struct SoftBox {
 
 /// A key light in front on the right, a wide fill on the left, a strip behind that lines the hair.
 const BOXES: [SoftBox; 3] = [
-    SoftBox { azimuth: 40.0, elevation: 38.0, half_size: [20.0, 16.0], radiance: Vec3::new(17.0, 16.0, 14.5) },
+    SoftBox {
+        azimuth: 40.0,
+        elevation: 38.0,
+        half_size: [20.0, 16.0],
+        radiance: Vec3::new(17.0, 16.0, 14.5),
+    },
     SoftBox { azimuth: -65.0, elevation: 12.0, half_size: [26.0, 30.0], radiance: Vec3::new(1.5, 1.7, 2.0) },
-    SoftBox { azimuth: 165.0, elevation: 35.0, half_size: [9.0, 32.0], radiance: Vec3::new(12.0, 12.0, 12.5) },
+    SoftBox {
+        azimuth: 165.0,
+        elevation: 35.0,
+        half_size: [9.0, 32.0],
+        radiance: Vec3::new(12.0, 12.0, 12.5),
+    },
 ];
 
 impl Environment {
@@ -54,14 +64,17 @@ fn studio_pixels(width: usize) -> Vec<Vec3> {
     let mut pixels = Vec::with_capacity(width * height);
     for row in 0..height {
         let y = (PI * (row as f32 + 0.5) / height as f32).cos();
-        pixels.extend((0..width).map(|column| radiance(direction_at((column as f32 + 0.5) / width as f32, y))));
+        pixels
+            .extend((0..width).map(|column| radiance(direction_at((column as f32 + 0.5) / width as f32, y))));
     }
     pixels
 }
 
 fn radiance(direction: Vec3) -> Vec3 {
     let walls = if direction.y < 0.0 { 0.09 } else { 0.16 + 0.10 * direction.y };
-    BOXES.iter().fold(Vec3::splat(walls), |sum, soft_box| sum + soft_box.radiance * soft_box.covers(direction))
+    BOXES
+        .iter()
+        .fold(Vec3::splat(walls), |sum, soft_box| sum + soft_box.radiance * soft_box.covers(direction))
 }
 
 impl SoftBox {

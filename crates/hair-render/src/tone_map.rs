@@ -151,13 +151,14 @@ mod tests {
     #[test]
     fn clip_is_plain_srgb() {
         let clip = ToneMapping { curve: Curve::Clip, ..Default::default() };
-        assert_eq!(shown(Vec3::new(0.0, 0.214_041, 7.0), 1.0, clip), [0, 128, 255, 255]);
+        assert_eq!(shown(Vec3::new(0.0, 0.215_861, 7.0), 1.0, clip), [0, 128, 255, 255]);
         assert_eq!(shown(Vec3::splat(0.5), 1.0, ToneMapping { exposure: 1.0, ..clip }), [255; 4]);
     }
 
     #[test]
     fn half_covered_pixels_mix_with_the_backdrop() {
-        let solid = ToneMapping { curve: Curve::Clip, backdrop: Backdrop::Solid(Vec3::ONE), ..Default::default() };
+        let solid =
+            ToneMapping { curve: Curve::Clip, backdrop: Backdrop::Solid(Vec3::ONE), ..Default::default() };
         assert_eq!(shown(Vec3::ZERO, 0.0, solid), [255; 4]);
         assert_eq!(shown(Vec3::ZERO, 0.785_958, solid), [128, 128, 128, 255]);
         let kept = ToneMapping { curve: Curve::Clip, ..Default::default() };

@@ -1,3 +1,19 @@
-//! Path-traces a groom to a multi-layer EXR.
+//! `hair-render`: path-traces a groom to a multi-layer EXR with an honest error figure.
 
-fn main() {}
+mod args;
+mod picture;
+mod scene;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use crate::args::Args;
+
+fn main() -> ExitCode {
+    let args = Args::parse();
+    command_line::run(|| match &args.write_studio {
+        Some(path) => picture::write_studio(path),
+        None => picture::render(&args),
+    })
+}
