@@ -19,7 +19,13 @@ const RUNS: usize = 5;
 
 type Result<T> = std::result::Result<T, Box<dyn std::error::Error>>;
 
+/// Set for a child that converts once and says its peak: `FORMAT`, or `none` for no conversion.
+const PEAK_OF: &str = "GROOM_FORMATS_PEAK_OF";
+
 fn main() -> Result<()> {
+    if let Ok(format) = std::env::var(PEAK_OF) {
+        return convert_once(&format);
+    }
     let folder = tempfile::tempdir()?;
     let input = folder.path().join("in.hair");
     write(&groom()?, &input, &WriteOptions::default())?;
@@ -70,20 +76,30 @@ fn writing(format: Format, input: &Path, payload: u64) -> Result<()> {
     drop(groom);
     let rate = out.0 as f64 / 1e6 / seconds;
     print!("write {format}: {rate:.0} MB/s, {:.1} MB in {seconds:.3} s", out.0 as f64 / 1e6);
-    reset_peak();
-    let before = peak();
-    let groom = read(input, &ReadOptions::default())?.groom;
-    write_to(format, &groom, io::sink(), "output", &WriteOptions::default())?;
-    match (before, peak()) {
-        (Some(before), Some(after)) => {
-            println!(
-                "; hair -> {format} took {:.1} MB over {:.1} MB of payload",
-                (after - before) as f64 / 1e6,
-                payload as f64 / 1e6
-            );
+    match (peak_of("none", input)?, peak_of(format.name(), input)?) {
+        (Some(idle), Some(peak)) => {
+            let over = peak.saturating_sub(idle) as f64 - payload as f64;
+            println!("; hair -> {format} peaks at payload {:+.1} MB", over / 1e6);
         }
         _ => println!(),
     }
+    Ok(())
+}
+
+/// Peak memory of a process that does nothing else, in bytes.
+fn peak_of(format: &str, input: &Path) -> Result<Option<u64>> {
+    let mut child = std::process::Command::new(std::env::current_exe()?);
+    let run = child.env(PEAK_OF, format).env("GROOM_FORMATS_INPUT", input).output()?;
+    Ok(String::from_utf8(run.stdout)?.trim().parse().ok())
+}
+
+fn convert_once(format: &str) -> Result<()> {
+    if let Some(format) = Format::from_name(format) {
+        let input = std::env::var_os("GROOM_FORMATS_INPUT").unwrap_or_default();
+        let groom = read(Path::new(&input), &ReadOptions::default())?.groom;
+        write_to(format, &groom, io::sink(), "output", &WriteOptions::default())?;
+    }
+    println!("{}", peak().map_or_else(String::new, |bytes| bytes.to_string()));
     Ok(())
 }
 
@@ -116,9 +132,4 @@ fn peak() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM:"))?;
     Some(line.split_whitespace().nth(1)?.parse::<u64>().ok()? * 1024)
-}
-
-/// Lets the peak start anew from what is resident now.
-fn reset_peak() {
-    let _ = std::fs::write("/proc/self/clear_refs", "5");
 }
