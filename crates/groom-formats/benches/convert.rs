@@ -59,7 +59,8 @@ fn reading(what: &str, path: &Path) -> Result<()> {
     let seconds = best(|| {
         let options = ReadOptions { known_len: Some(bytes), ..ReadOptions::default() };
         let format = Format::from_path(path).unwrap_or(Format::Hair);
-        Ok(drop(read_from(format, File::open(path)?, "input", &options)?))
+        std::hint::black_box(read_from(format, File::open(path)?, "input", &options)?);
+        Ok(())
     })?;
     println!("{what}: {:.0} MB/s", bytes as f64 / 1e6 / seconds);
     Ok(())
