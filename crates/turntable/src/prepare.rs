@@ -6,7 +6,7 @@ use glam::Vec3;
 use groom::{Attribute, Domain, Groom, Values, names};
 use groom_formats::ReadOptions;
 
-use crate::schema::{Attributes, Axis, GroomSource, SampleSource};
+use crate::schema::{Attributes, Axis, GroomSource, SampleSource, Style};
 use crate::{Event, Reporter, TurntableError};
 
 /// Reads or makes the groom.
@@ -49,8 +49,15 @@ fn read(path: &Path, source: &GroomSource, reporter: &dyn Reporter) -> Result<Gr
     Ok(loaded.groom)
 }
 
-fn make(_sample: &SampleSource) -> Result<Groom, TurntableError> {
-    Err(TurntableError::Sample("not built yet".into()))
+fn make(sample: &SampleSource) -> Result<Groom, TurntableError> {
+    let style = match sample.style {
+        Style::Straight => groom_samples::Style::Straight,
+        Style::Wavy => groom_samples::Style::Wavy,
+        Style::Curly => groom_samples::Style::Curly,
+    };
+    let SampleSource { strands, points, seed, .. } = *sample;
+    let options = groom_samples::Options { style, strands, points, seed, ..groom_samples::Options::default() };
+    groom_samples::hair(&options).map_err(|error| TurntableError::Sample(error.to_string()))
 }
 
 /// Thins before it dresses: what is left out is not worked on.

@@ -1,0 +1,217 @@
+//! What is made again and what is left alone; kills and resumes.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Stdio};
+use std::time::Duration;
+
+use end_to_end_tests::program;
+use exr::prelude::{ReadChannels as _, ReadLayers as _};
+
+const PIPELINE: &str = "version: 1
+groom: {sample: {style: wavy, strands: 40, points: 6}}
+convert: [groom.txt, groom.hair]
+lights: {environment: {constant: [1, 0.9, 0.8]}}
+turntable: {frames: 3}
+render: {width: 16, height: 16, spp: 2, max_bounces: 4, aovs: [R]}
+sheet: {columns: 3, gap: 2}
+";
+
+/// A pipeline in a folder of its own.
+struct Bench {
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Bench {
+        let folder = tempfile::tempdir().unwrap();
+        std::fs::write(folder.path().join("turn.yaml"), PIPELINE).unwrap();
+        Bench { folder }
+    }
+
+    fn out(&self) -> PathBuf {
+        self.folder.path().join("out")
+    }
+
+    fn command(&self, more: &[&str]) -> Command {
+        let mut command = Command::new(program("turntable"));
+        command.arg(self.folder.path().join("turn.yaml")).arg("--out").arg(self.out()).args(more);
+        command
+    }
+
+    /// Runs to the end and returns the names of the files made, the report left out.
+    fn made(&self, more: &[&str]) -> Vec<String> {
+        let output = self.command(&[more, &["--json"]].concat()).output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let names = summary["made"].as_array().unwrap().iter().map(|v| v.as_str().unwrap().to_owned());
+        names.filter(|name| !name.starts_with("report.")).collect()
+    }
+
+    /// Every file of the output folder with its bytes; frames as their pixels, for their headers
+    /// hold the seconds they took.
+    fn contents(&self) -> BTreeMap<PathBuf, Vec<u8>> {
+        let mut found = BTreeMap::new();
+        for folder in [self.out(), self.out().join("frames")] {
+            for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
+                let path = entry.path();
+                let name = path.file_name().unwrap().to_string_lossy().into_owned();
+                if path.is_file() && !name.starts_with("report.") {
+                    let is_frame = path.extension().is_some_and(|e| e == "exr");
+                    let bytes = if is_frame && !name.starts_with('.') {
+                        pixels(&path)
+                    } else {
+                        std::fs::read(&path).unwrap()
+                    };
+                    found.insert(path.strip_prefix(self.out()).unwrap().to_owned(), bytes);
+                }
+            }
+        }
+        found
+    }
+}
+
+/// All channels of a frame, bit for bit.
+fn pixels(path: &Path) -> Vec<u8> {
+    let image = exr::prelude::read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .all_channels()
+        .first_valid_layer()
+        .all_attributes()
+        .from_file(path)
+        .unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    let channels = image.layer_data.channel_data.list;
+    channels
+        .iter()
+        .flat_map(|c| c.sample_data.values_as_f32().flat_map(|v| v.to_bits().to_le_bytes()))
+        .collect()
+}
+
+const FRAMES: [&str; 3] = ["frames/frame.0001.exr", "frames/frame.0002.exr", "frames/frame.0003.exr"];
+
+#[test]
+fn only_what_changed_is_made_again() {
+    let bench = Bench::new();
+    let all = bench.made(&[]);
+    assert_eq!(all, [&["groom.txt", "groom.hair"][..], &FRAMES, &["sheet.png"]].concat());
+    assert_eq!(bench.made(&[]), Vec::<String>::new(), "nothing changed");
+    assert_eq!(bench.made(&["--threads", "1"]), Vec::<String>::new(), "threads change no pixel");
+    let check = bench.command(&["--check"]).output().unwrap();
+    assert_eq!(check.status.code(), Some(0));
+
+    let frames_and_sheet = [&FRAMES[..], &["sheet.png"]].concat();
+    assert_eq!(bench.made(&["--set", "render.spp=3"]), frames_and_sheet, "samples concern frames");
+    assert_eq!(bench.made(&[]), frames_and_sheet, "and back again");
+    assert_eq!(bench.made(&["--set", "tone.exposure=1"]), ["sheet.png"], "exposure concerns the sheet");
+    assert_eq!(bench.made(&[]), ["sheet.png"]);
+    assert_eq!(bench.made(&["--set", "material.beta_m=0.3"]), Vec::<String>::new(), "a default spelled out");
+    assert_eq!(bench.made(&["--set", "attributes.scale=2"]).len(), 6, "the groom concerns everything");
+}
+
+#[test]
+fn damage_is_mended_and_nothing_else_touched() {
+    let bench = Bench::new();
+    bench.made(&[]);
+    let whole = bench.contents();
+    let path = |name: &str| bench.out().join(name);
+    for name in ["groom.txt", FRAMES[1], "sheet.png"] {
+        std::fs::remove_file(path(name)).unwrap();
+        assert_eq!(bench.made(&[]), [name]);
+        let bytes = std::fs::read(path(name)).unwrap();
+        std::fs::write(path(name), &bytes[..bytes.len() - 7]).unwrap();
+        assert_eq!(bench.made(&[]), [name], "a truncated {name}");
+        std::fs::write(path(name), b"").unwrap();
+        assert_eq!(bench.made(&[]), [name], "an empty {name}");
+    }
+    assert_eq!(bench.contents(), whole, "what was made again has the same bits");
+    let stale = path("frames/.frame.0001.exr.4294967295.abc.tmp");
+    std::fs::write(&stale, b"half").unwrap();
+    bench.made(&[]);
+    assert!(!stale.exists() || !Path::new("/proc/self").exists(), "stale temporary files are cleared");
+}
+
+#[test]
+fn more_frames_keep_the_views_there_are() {
+    let bench = Bench::new();
+    bench.made(&["--set", "turntable.frames=2"]);
+    let two = bench.contents();
+    let made = bench.made(&["--set", "turntable.frames=4"]);
+    assert_eq!(made.iter().filter(|name| name.starts_with("frames/")).count(), 3);
+    let four = bench.contents();
+    assert_eq!(four[Path::new(FRAMES[2])], two[Path::new(FRAMES[1])], "180 degrees is the same picture");
+    assert_eq!(four[Path::new(FRAMES[0])], two[Path::new(FRAMES[0])]);
+    assert_ne!(four[Path::new(FRAMES[1])], two[Path::new(FRAMES[1])]);
+    let summary = bench.command(&["--set", "turntable.frames=2", "--explain"]).output().unwrap();
+    assert!(String::from_utf8_lossy(&summary.stdout).contains("the same view is there as"));
+}
+
+#[test]
+fn frames_can_be_shared_out() {
+    let bench = Bench::new();
+    assert_eq!(
+        bench.made(&["--frames", "2"]),
+        ["groom.txt", "groom.hair", FRAMES[1]],
+        "no sheet without all frames"
+    );
+    assert_eq!(bench.made(&["--frames", "1,3"]), [FRAMES[0], FRAMES[2]]);
+    assert_eq!(bench.made(&[]), ["sheet.png"]);
+    let other = Bench::new();
+    other.made(&["--threads", "1"]);
+    assert_eq!(bench.contents(), other.contents(), "shared out or not, the same bits");
+}
+
+#[test]
+fn a_killed_run_leaves_no_half_file_and_is_resumed_to_the_same_bits() {
+    let undisturbed = Bench::new();
+    undisturbed.made(&[]);
+    let bench = Bench::new();
+    for delay in [5, 15, 30, 50, 80, 120] {
+        let mut child = bench.command(&[]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        std::thread::sleep(Duration::from_millis(delay));
+        let _ = child.kill();
+        child.wait().unwrap();
+        for name in FRAMES.iter().chain(&["sheet.png", "groom.txt"]).map(|name| bench.out().join(name)) {
+            match name.extension().and_then(|e| e.to_str()) {
+                _ if !name.exists() => {}
+                Some("exr") => assert!(!pixels(&name).is_empty()),
+                _ => {
+                    let twin = undisturbed.out().join(name.strip_prefix(bench.out()).unwrap());
+                    assert_eq!(
+                        std::fs::read(&name).unwrap(),
+                        std::fs::read(twin).unwrap(),
+                        "{}",
+                        name.display()
+                    );
+                }
+            }
+        }
+    }
+    bench.made(&[]);
+    assert_eq!(bench.contents(), undisturbed.contents());
+}
+
+#[test]
+fn the_sheet_holds_the_frames_and_the_report_their_figures() {
+    let bench = Bench::new();
+    bench.made(&[]);
+    let png = std::fs::read(bench.out().join("sheet.png")).unwrap();
+    assert_eq!(&png[..8], b"\x89PNG\r\n\x1a\n");
+    let number = |at: usize| u32::from_be_bytes(png[at..at + 4].try_into().unwrap());
+    assert_eq!((number(16), number(20)), (3 * 16 + 4 * 2, 16 + 2 * 2));
+    let report = std::fs::read_to_string(bench.out().join("report.json")).unwrap();
+    let report: serde_json::Value = serde_json::from_str(&report).unwrap();
+    assert_eq!(report["schema"], "error-report/1");
+    let points = report["series"][0]["points"].as_array().unwrap();
+    assert_eq!(points.len(), 3);
+    assert!(points.iter().all(|p| p["samples"] == 2.0 && p["seconds"].as_f64().unwrap() > 0.0));
+    let page = std::fs::read_to_string(bench.out().join("report.html")).unwrap();
+    assert!(page.contains("<svg") && page.contains("frame 0003"));
+    assert!(
+        FRAMES.iter().all(|name| {
+            let bits = pixels(&bench.out().join(name));
+            bits.chunks_exact(4).any(|v| f32::from_le_bytes(v.try_into().unwrap()) > 0.1)
+        }),
+        "a frame is black"
+    );
+}
