@@ -74,11 +74,11 @@ fn all_ways_of_finding_light_agree() {
         |size| AreaLight::facing(DVec3::new(2.0, 3.0, 1.5), DVec3::Y, size, size, Vec3::splat(6.0)).unwrap();
     let scenes = [
         scene(vec![hair(tuft(150, 0.03), blond())], Some(environment), vec![]),
-        scene(vec![hair(tuft(150, 0.03), blond())], None, vec![light(2.0)]),
+        scene(vec![hair(tuft(150, 0.03), blond())], None, vec![light(7.0)]),
         scene(
             vec![hair(tuft(150, 0.03), HairColor::Color(Vec3::new(0.4, 0.2, 0.1)))],
             Some(Environment::constant(Vec3::splat(0.2)).unwrap()),
-            vec![light(1.5), AreaLight { two_sided: true, ..light(1.0) }],
+            vec![light(4.0), AreaLight { two_sided: true, ..light(1.0) }],
         ),
     ];
     for (index, scene) in scenes.iter().enumerate() {
@@ -92,7 +92,7 @@ fn all_ways_of_finding_light_agree() {
             });
         for other in &means[1..] {
             let off = ((*other - means[0]) / means[0]).abs().max_element();
-            assert!(off < 0.02, "scene {index}: {means:?}");
+            assert!(off < 0.035, "scene {index}: {means:?}");
         }
     }
 }
