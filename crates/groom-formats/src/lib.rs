@@ -22,6 +22,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+// Formats share helpers; one format alone does not use them all.
+#![cfg_attr(
+    not(all(feature = "hair", feature = "text", feature = "gltf", feature = "usda")),
+    allow(dead_code, unused_imports)
+)]
+
 mod check;
 #[cfg(any(feature = "gltf", feature = "usda"))]
 mod drawable;

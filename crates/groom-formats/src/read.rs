@@ -28,6 +28,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Loaded, FormatError> {
 ///
 /// # Errors
 /// [`FormatError`], which names the place in the stream.
+#[cfg_attr(not(any(feature = "hair", feature = "text")), allow(unused_variables))]
 pub fn read_from(
     format: Format,
     stream: impl Read,

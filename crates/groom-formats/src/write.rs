@@ -35,6 +35,11 @@ pub fn write(groom: &Groom, path: &Path, options: &WriteOptions) -> Result<Vec<W
 ///
 /// # Errors
 /// [`FormatError`], also for a format that is more than one stream ([`Format::streams`]).
+#[cfg_attr(not(feature = "hair"), allow(unused_variables))] // only HAIR has options
+#[cfg_attr(
+    not(any(feature = "hair", feature = "text", feature = "gltf", feature = "usda")),
+    allow(unreachable_code, unused_mut)
+)]
 pub fn write_to(
     format: Format,
     groom: &Groom,
@@ -56,7 +61,6 @@ pub fn write_to(
         other => return Err(unwritable(other, name)),
     };
     stream.flush().map_err(|e| FormatError::io(name, e))?;
-    let _ = options; // only HAIR has any
     Ok(warnings)
 }
 
