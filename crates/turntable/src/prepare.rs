@@ -56,7 +56,8 @@ fn make(sample: &SampleSource) -> Result<Groom, TurntableError> {
         Style::Curly => groom_samples::Style::Curly,
     };
     let SampleSource { strands, points, seed, .. } = *sample;
-    let options = groom_samples::Options { style, strands, points, seed, ..groom_samples::Options::default() };
+    let options =
+        groom_samples::Options { style, strands, points, seed, ..groom_samples::Options::default() };
     groom_samples::hair(&options).map_err(|error| TurntableError::Sample(error.to_string()))
 }
 

@@ -77,11 +77,11 @@ fn about_square(count: u32, width: u32, height: u32) -> u32 {
     let off = |columns: u32| {
         let across = f64::from(columns) * f64::from(width);
         let down = f64::from(count.div_ceil(columns)) * f64::from(height);
-        // Empty places in the last row count too.
+        // Empty places in the last row count more; of two shapes as good, the wider one is taken.
         let empty = columns * count.div_ceil(columns) - count;
-        (across / down).ln().abs() + 0.2 * f64::from(empty)
+        (across / down).ln().abs() + 0.8 * f64::from(empty)
     };
-    (1..=count.max(1)).min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(1)
+    (1..=count.max(1)).rev().min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(1)
 }
 
 fn size(gap: u32, count: u32, columns: u32, cell: (u32, u32)) -> (u32, u32) {
