@@ -64,12 +64,12 @@ impl Frame {
 
     fn attributes(&self, metadata: &Metadata) -> openexr::LayerAttributes {
         let report = &self.report;
-        let mut attributes = openexr::LayerAttributes::default();
-        attributes.software_name = text(concat!("groomkit hair-render ", env!("CARGO_PKG_VERSION")));
-        attributes.world_to_camera = metadata.camera.map(|camera| {
+        let mut attributes = openexr::LayerAttributes {
+            software_name: text(concat!("groomkit hair-render ", env!("CARGO_PKG_VERSION"))),
             // OpenEXR multiplies row vectors: its rows are our columns.
-            camera.camera_from_world().as_mat4().to_cols_array()
-        });
+            world_to_camera: metadata.camera.map(|c| c.camera_from_world().as_mat4().to_cols_array()),
+            ..openexr::LayerAttributes::default()
+        };
         let mut put = |key: &str, value: AttributeValue| {
             if let Some(key) = text(key) {
                 attributes.other.insert(key, value);
@@ -153,8 +153,10 @@ pub(crate) fn write_rgb(
 ) -> Result<(), RenderError> {
     let mut channels = openexr::SmallVec::new();
     push_color(&mut channels, "", pixels, precision);
-    let mut attributes = openexr::LayerAttributes::default();
-    attributes.environment_map = Some(openexr::attribute::EnvironmentMap::LatitudeLongitude);
+    let attributes = openexr::LayerAttributes {
+        environment_map: Some(openexr::attribute::EnvironmentMap::LatitudeLongitude),
+        ..openexr::LayerAttributes::default()
+    };
     let size = (width, pixels.len() / width.max(1));
     let layer = openexr::Layer::new(size, attributes, encoding(), AnyChannels::sort(channels));
     let mut image = openexr::Image::from_layer(layer);

@@ -117,7 +117,7 @@ mod tests {
         let lights = Lights::new(Some(environment), &lights, DVec3::ZERO);
         let mut kinds = [0; 2];
         for i in 0..3000 {
-            let u = [0.754_877_67f32, 0.569_840_3, 0.438_579].map(|step| (step * (i as f32 + 0.5)).fract());
+            let u = [0.754_877_7f32, 0.569_840_3, 0.438_579].map(|step| (step * (i as f32 + 0.5)).fract());
             let Some(seen) = lights.sample(Vec3::ZERO, u) else { continue };
             kinds[usize::from(seen.distance.is_infinite())] += 1;
             let mut found = false;

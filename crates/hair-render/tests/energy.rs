@@ -1,4 +1,5 @@
 //! Laws of energy and of sampling: what a render must be, whatever its noise.
+#![allow(clippy::unwrap_used)] // also the helpers are test code
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Frames as a whole: threads, cancelling, files.
+#![allow(clippy::unwrap_used)] // also the helpers are test code
 
 mod common;
 

@@ -1,4 +1,5 @@
 //! Where things are: mirrors, directions, units, far and tiny scenes.
+#![allow(clippy::unwrap_used)] // also the helpers are test code
 
 mod common;
 

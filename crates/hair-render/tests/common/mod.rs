@@ -1,5 +1,5 @@
 //! Small scenes and comparisons the tests share.
-#![allow(dead_code, missing_docs)]
+#![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
 use glam::{DVec3, Vec3};
 use groom::{Attribute, Groom, names};
