@@ -88,6 +88,9 @@ fn info_says_what_is_there() {
     assert_eq!(report["bounds"]["max"], serde_json::json!([1.0, 0.5, 2.0]));
     assert_eq!(report["hair"]["arrays"], serde_json::json!(["segments", "points", "thickness"]));
     assert_eq!(report["up_axis"], "z");
+    folder.good(&["in.txt", "thin.hair", "--width", "0.1"]);
+    let thin = String::from_utf8(folder.good(&["thin.hair", "--info", "--json"]).stdout).unwrap();
+    assert!(thin.contains("\"default_thickness\": 0.1,") && thin.contains("\"max\": 0.05,"), "{thin}");
     assert_eq!(report["bytes"], std::fs::metadata(folder.path("a.hair")).unwrap().len());
     let text = String::from_utf8(folder.good(&["a.hair", "--info"]).stdout).unwrap();
     assert!(text.contains("strands          2\n") && text.contains("thickness"), "{text}");
@@ -132,8 +135,10 @@ fn what_cannot_be_done_exits_with_2_and_leaves_nothing() {
     std::fs::write(folder.path("bad.txt"), "0 0 0 1\n0 x 0 1\n").unwrap();
     std::fs::write(folder.path("dots.txt"), "0 0 0 1\n").unwrap();
     std::fs::write(folder.path("old.usda"), "old").unwrap();
+    std::fs::write(folder.path("hair.bin"), TEXT).unwrap();
+    std::fs::create_dir(folder.path("folder.txt")).unwrap();
     let before = folder.names();
-    let cases: [(&[&str], &str); 22] = [
+    let cases: [(&[&str], &str); 26] = [
         (&["missing.hair", "out.txt"], "missing.hair"),
         (&["bad.hair", "out.txt"], "bad.hair"),
         (&["bad.txt", "out.hair"], "bad.txt: line 2, column 3: found `x`"),
@@ -141,6 +146,10 @@ fn what_cannot_be_done_exits_with_2_and_leaves_nothing() {
         (&["in.txt", "no such folder/out.txt"], "no such folder"),
         (&["in.txt", "out.abc"], "expected one of hair, txt, gltf, glb, usda"),
         (&["in.txt"], "<OUTPUT>"),
+        (&["folder.txt", "out.hair"], "folder.txt: "),
+        (&["in.txt", "folder.txt"], "folder.txt: could not replace a folder"),
+        (&["in.txt", "out", "--to", "gltf"], "ends with .gltf"),
+        (&["hair.bin", "hair.gltf", "--from", "txt"], "hair.bin would be written over the input"),
         (&["old.usda", "out.txt"], "can be written but not yet read"),
         (&["-", "out.txt"], "--from"),
         (&["in.txt", "-"], "--to"),
@@ -165,6 +174,57 @@ fn what_cannot_be_done_exits_with_2_and_leaves_nothing() {
     }
     assert_eq!(folder.names(), before);
     assert_eq!(std::fs::read(folder.path("old.usda")).unwrap(), b"old");
+}
+
+#[test]
+fn the_input_may_be_the_output() {
+    let folder = Folder::new();
+    folder.good(&["in.txt", "in.txt", "--scale", "2"]);
+    assert!(std::fs::read_to_string(folder.path("in.txt")).unwrap().starts_with("0 0 0 1\n0 0 2 0.5\n"));
+    assert_eq!(folder.names(), ["in.txt"]);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_disk_is_told() {
+    let folder = Folder::new();
+    let full = std::fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+    let run = Command::new(program("cyhair-convert"))
+        .current_dir(folder.0.path())
+        .args(["in.txt", "-", "--to", "hair"])
+        .stdout(full)
+        .output()
+        .unwrap();
+    assert_eq!(run.status.code(), Some(2));
+    assert!(words(&run).contains("standard output: No space left"), "{}", words(&run));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_a_killed_run_left_is_cleared_away() {
+    let folder = Folder::new();
+    // No process has this number.
+    for name in [".out.gltf.4294967295.a1.tmp", ".out.bin.4294967295.a1.tmp"] {
+        std::fs::write(folder.path(name), "half").unwrap();
+    }
+    folder.good(&["in.txt", "out.gltf"]);
+    assert_eq!(folder.names(), ["in.txt", "out.bin", "out.gltf"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn a_named_pipe_is_written_to_and_stays_one() {
+    use std::os::unix::fs::FileTypeExt;
+    let folder = Folder::new();
+    let path = folder.path("pipe.txt");
+    assert!(Command::new("mkfifo").arg(&path).status().unwrap().success());
+    let reader = std::thread::spawn({
+        let path = path.clone();
+        move || std::fs::read_to_string(path).unwrap()
+    });
+    folder.good(&["in.txt", "pipe.txt"]);
+    assert!(path.metadata().unwrap().file_type().is_fifo());
+    assert_eq!(reader.join().unwrap(), TEXT);
 }
 
 #[test]

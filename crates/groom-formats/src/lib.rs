@@ -40,6 +40,7 @@ mod hair;
 #[cfg(any(feature = "text", feature = "usda"))]
 mod numbers;
 mod options;
+mod output;
 mod read;
 #[cfg(feature = "text")]
 pub mod text;
@@ -52,6 +53,7 @@ mod write;
 pub use error::FormatError;
 pub use format::Format;
 pub use options::{HairExtras, Loaded, ReadOptions, WriteOptions};
+pub use output::Output;
 pub use read::{read, read_from};
 pub use warning::Warning;
 pub use write::{write, write_to};

@@ -52,6 +52,13 @@ impl<'a, W: Write> TextOut<'a, W> {
     }
 }
 
+/// As [`TextOut::float`], for a single number of twice the size.
+pub(crate) fn shortest(value: f64) -> String {
+    let mut text = Vec::new();
+    push_shortest(&mut text, zmij::Buffer::new().format(value));
+    String::from_utf8(text).unwrap_or_default()
+}
+
 #[inline]
 fn push_shortest(text: &mut Vec<u8>, digits: &str) {
     text.extend_from_slice(digits.strip_suffix(".0").unwrap_or(digits).as_bytes());
@@ -74,6 +81,7 @@ mod tests {
         for (value, text) in [(1.0, "1"), (-0.0, "-0"), (0.1, "0.1"), (-2.5, "-2.5")] {
             assert_eq!(text_of(value), text);
         }
+        assert_eq!([shortest(1.0), shortest(0.00254), shortest(1e22)], ["1", "0.00254", "1e+22"]);
         for value in [f32::MIN_POSITIVE, f32::MAX, f32::from_bits(1), 1e-7, 1e16, 123_456_790.0, 10.0, 0.3] {
             assert_eq!(text_of(value).parse::<f32>().unwrap().to_bits(), value.to_bits(), "{value}");
         }

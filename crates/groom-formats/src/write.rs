@@ -4,16 +4,17 @@ use std::io::{BufWriter, Write};
 use std::path::Path;
 
 use groom::Groom;
-use whole_file::WholeFile;
 
-use crate::{Format, FormatError, Warning, WriteOptions, check, read};
+use crate::{Format, FormatError, Output, Warning, WriteOptions, check, read};
 
 /// Bytes gathered before the system is asked to write them.
 const BUFFER: usize = 1 << 20;
 
-/// Writes `groom` to `path` in the format its ending names: the whole file or nothing.
+/// Writes `groom` to `path` in the format its ending names: the whole file or nothing ([`Output`]).
 ///
-/// Returns what the format could not hold. `.gltf` writes two files, the bytes first.
+/// Returns what the format could not hold. `NAME.gltf` writes its bytes to `NAME.bin` beside it. Both
+/// are finished before the first takes its place, the bytes first: only a process killed between the
+/// two renames leaves new bytes with an old document.
 ///
 /// # Errors
 /// [`FormatError`]; the old file at `path`, if any, is then untouched.
@@ -26,7 +27,9 @@ pub fn write(groom: &Groom, path: &Path, options: &WriteOptions) -> Result<Vec<W
     if format == Format::Gltf {
         return write_gltf(groom, path, &name);
     }
-    whole(path, &name, |stream| write_to(format, groom, stream, &name, options))
+    let (output, warnings) = filled(path, &name, |stream| write_to(format, groom, stream, &name, options))?;
+    output.commit()?;
+    Ok(warnings)
 }
 
 /// Writes `groom` to a stream; `name` stands for it in messages.
@@ -70,13 +73,16 @@ fn write_gltf(groom: &Groom, path: &Path, name: &str) -> Result<Vec<Warning>, Fo
     let bytes_path = path.with_extension("bin");
     let bytes_name = bytes_path.file_name().unwrap_or_default().to_string_lossy().into_owned();
     let plan = crate::gltf::Plan::new(groom, Format::Gltf, name)?;
-    whole(&bytes_path, &bytes_path.display().to_string(), |stream| {
-        plan.write_bytes(stream).map_err(|e| FormatError::io(name, e))
+    let bytes_file = bytes_path.display().to_string();
+    let (bytes, ()) = filled(&bytes_path, &bytes_file, |stream| {
+        plan.write_bytes(stream).map_err(|e| FormatError::io(&bytes_file, e))
     })?;
-    whole(path, name, |stream| {
+    let (document, ()) = filled(path, name, |stream| {
         let json = plan.json(Some(&bytes_name)).map_err(|e| FormatError::io(name, e))?;
         stream.write_all(&json).map_err(|e| FormatError::io(name, e))
     })?;
+    bytes.commit()?;
+    document.commit()?;
     Ok(plan.into_warnings())
 }
 
@@ -85,18 +91,16 @@ fn write_gltf(_: &Groom, _: &Path, name: &str) -> Result<Vec<Warning>, FormatErr
     Err(unwritable(Format::Gltf, name))
 }
 
-/// Runs `body` on a buffered file that takes its name only when all went well.
-fn whole<T>(
+/// Runs `body` on a buffered output; what comes back is written but not yet in its place.
+fn filled<T>(
     path: &Path,
     name: &str,
-    body: impl FnOnce(&mut BufWriter<WholeFile>) -> Result<T, FormatError>,
-) -> Result<T, FormatError> {
-    let fault = |source| FormatError::WholeFile { source };
-    let mut stream = BufWriter::with_capacity(BUFFER, WholeFile::create(path).map_err(fault)?);
+    body: impl FnOnce(&mut BufWriter<Output>) -> Result<T, FormatError>,
+) -> Result<(Output, T), FormatError> {
+    let mut stream = BufWriter::with_capacity(BUFFER, Output::create(path)?);
     let done = body(&mut stream)?;
-    let file = stream.into_inner().map_err(|e| FormatError::io(name, e.into_error()))?;
-    file.commit().map_err(fault)?;
-    Ok(done)
+    let output = stream.into_inner().map_err(|e| FormatError::io(name, e.into_error()))?;
+    Ok((output, done))
 }
 
 fn unwritable(format: Format, name: &str) -> FormatError {

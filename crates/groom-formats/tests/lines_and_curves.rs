@@ -59,6 +59,7 @@ fn glb_holds_lines_in_metres_with_y_up() {
     let expected = kept.map(|v| (f64::from(2.0 * groom.radii().get(0, v)) * 0.01) as f32);
     assert_eq!(widths, expected);
     let colors = array(&json, bytes, &attributes["COLOR_0"]);
+    assert_eq!(json["materials"][0]["alphaMode"], "BLEND", "transparency would not be seen");
     assert_eq!((&colors[..4], &colors[24..]), (&[255, 0, 0, 191][..], &[51, 102, 153, 191][..]));
     let format = Format::Glb;
     assert!(warnings.contains(&Warning::OnePointStrandsLeftOut { format, strands: 1 }));
@@ -146,6 +147,42 @@ fn colours_outside_0_to_1_are_clamped_and_told() {
     groom.set_attribute(names::COLOR, groom::Attribute::constant_vec3(Vec3::new(2.0, -1.0, 0.0))).unwrap();
     let warnings = to_bytes(Format::Glb, &groom).unwrap().1;
     assert!(warnings.contains(&Warning::Clamped { format: Format::Glb, name: "color", values: 7 }));
+}
+
+#[test]
+fn opaque_hair_is_not_blended() {
+    let mut groom = full_groom();
+    groom.set_attribute(names::TRANSPARENCY, groom::Attribute::constant_float(0.0)).unwrap();
+    let (glb, _) = to_bytes(Format::Glb, &groom).unwrap();
+    let mode = &chunks(&glb).0["materials"][0]["alphaMode"];
+    assert!(mode.is_null() || mode == "OPAQUE", "{mode}");
+}
+
+#[test]
+fn neither_file_of_a_pair_is_replaced_when_the_other_cannot_be() {
+    let folder = tempfile::tempdir().unwrap();
+    std::fs::write(folder.path().join("a.bin"), "old").unwrap();
+    std::fs::create_dir(folder.path().join("a.gltf")).unwrap();
+    let path = folder.path().join("a.gltf");
+    groom_formats::write(&full_groom(), &path, &WriteOptions::default()).unwrap_err();
+    assert_eq!(std::fs::read(folder.path().join("a.bin")).unwrap(), b"old");
+    assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 2, "nothing is left behind");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_pipe_is_written_to_and_stays_a_pipe() {
+    use std::os::unix::fs::FileTypeExt;
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("pipe.txt");
+    assert!(std::process::Command::new("mkfifo").arg(&path).status().unwrap().success());
+    let reader = std::thread::spawn({
+        let path = path.clone();
+        move || std::fs::read(path).unwrap()
+    });
+    groom_formats::write(&full_groom(), &path, &WriteOptions::default()).unwrap();
+    assert!(path.metadata().unwrap().file_type().is_fifo());
+    assert_eq!(reader.join().unwrap(), to_bytes(Format::Text, &full_groom()).unwrap().0);
 }
 
 #[test]

@@ -77,7 +77,8 @@ fn loose_layouts_are_read() {
     let expected = groom("0 0 0 1\n0 1 0 1\n\n2 0 0 1\n");
     let crlf = "0 0 0 1\r\n0 1 0 1\r\n\r\n2 0 0 1\r\n";
     let blanks = "\n \n  0 0\t0 1  \n0 1 0 +1.0e0\n\n\n \t\n2 0 0 1";
-    for text in [crlf, blanks] {
+    let marked = "\u{feff}0 0 0 1\n0 1 0 1\n\n2 0 0 1\n";
+    for text in [crlf, blanks, marked] {
         let loaded = from_bytes(Format::Text, text.as_bytes()).unwrap();
         assert_eq!((loaded.groom, loaded.warnings), (expected.clone(), vec![]), "{text:?}");
     }
@@ -102,13 +103,18 @@ fn up_and_unit_come_from_the_options() {
 
 #[test]
 fn faults_are_placed() {
-    let cases: [(&str, u64, usize, &str); 11] = [
+    let cases: [(&str, u64, usize, &str); 16] = [
         ("", 1, 1, "no point"),
         ("\n\n", 2, 1, "no point"),
         ("# hair\n", 1, 1, "`#`"),
         ("0 0 0 1\n0 x 0 1\n", 2, 3, "`x`"),
         ("0 0 0 1\n0 0 nan 1\n", 2, 5, "`nan`"),
         ("0 0 1e39 1\n", 1, 5, "`1e39`"),
+        ("0 0 1e400 1\n", 1, 5, "`1e400`"),
+        ("0 0 infinity 1\n", 1, 5, "`infinity`"),
+        ("0 0 0 1\r0 0 1 1\r", 1, 7, "`1\\r0`"),
+        ("0 0 0 1\n\u{feff}0 0 1 1\n", 2, 1, "`\\u{feff}0`"),
+        ("0 0 0x10 1\n", 1, 5, "`0x10`"),
         ("0 0\n", 1, 1, "2 numbers"),
         ("0 0 0 1\n\n0 0 0\n", 3, 1, "3 numbers"),
         ("0,0,0,1\n", 1, 1, "`0,0,0,1`"),

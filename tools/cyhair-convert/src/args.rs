@@ -11,8 +11,8 @@ use groom_formats::Format;
 /// Converts hair and fur grooms between formats, or says what is in one.
 ///
 /// Formats go by the ending: .hair and .txt are read; .hair, .txt, .gltf, .glb and .usda are written.
-/// The output is written whole or not at all, over what is there. What a format cannot hold is told on
-/// stderr.
+/// The output is written whole or not at all, over what is there (a device or named pipe is written to as
+/// it stands). NAME.gltf comes with NAME.bin beside it. What a format cannot hold is told on stderr.
 #[derive(Debug, Parser)]
 #[command(
     name = "cyhair-convert",
@@ -152,10 +152,26 @@ impl Args {
                 bail!("--json and the output `-` both need standard output");
             }
         }
+        if format == Format::Gltf {
+            self.refuse_odd_pair(output)?;
+        }
         if matches!(format, Format::Gltf | Format::Glb) && self.up == Some(Up::Z) {
             bail!("--up z cannot be used with .{format}: glTF is always y-up");
         }
         Ok((output, format))
+    }
+
+    /// `.gltf` names its second file itself, which must be possible and must not be the input.
+    fn refuse_odd_pair(&self, output: &Path) -> Result<()> {
+        if Format::from_path(output).is_none() {
+            bail!("{}: --to gltf needs an output that ends with .gltf", output.display());
+        }
+        let bytes = output.with_extension("bin");
+        let same = |input: &Path| Some(input.canonicalize().ok()? == bytes.canonicalize().ok()?);
+        if same(&self.input) == Some(true) {
+            bail!("{} would be written over the input; use --to glb or another name", bytes.display());
+        }
+        Ok(())
     }
 }
 

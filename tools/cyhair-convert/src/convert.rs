@@ -7,9 +7,9 @@ use std::time::Instant;
 use anyhow::Result;
 use command_line::progress_bar;
 use groom::{Groom, GroomError};
-use groom_formats::{Format, Warning, WriteOptions, write, write_to};
+use groom_formats::{Format, Output, Warning, WriteOptions, write, write_to};
 use serde_json::json;
-use whole_file::WholeFile;
+use whole_file::clear_stale;
 
 use crate::args::{Args, is_stream};
 use crate::counted::Counted;
@@ -91,7 +91,7 @@ fn edit(mut groom: Groom, args: &Args) -> Result<Groom, GroomError> {
     Ok(groom)
 }
 
-/// Writes the groom; returns what the format could not hold and how many bytes were written.
+/// Writes the groom, and clears away what a killed run left beside it; returns what the format could not hold and how many bytes were written.
 fn store(
     groom: &Groom,
     output: &Path,
@@ -104,12 +104,14 @@ fn store(
         let warnings = write_to(format, groom, &mut stream, "standard output", options)?;
         return Ok((warnings, stream.finish().1));
     }
+    clear_stale(output);
     if !format.streams() {
+        clear_stale(output.with_extension("bin"));
         let warnings = write(groom, output, options)?;
         let size = |path: &Path| path.metadata().map_or(0, |m| m.len());
         return Ok((warnings, size(output) + size(&output.with_extension("bin"))));
     }
-    let mut stream = Counted::new(WholeFile::create(output)?, bar);
+    let mut stream = Counted::new(Output::create(output)?, bar);
     let warnings = write_to(format, groom, &mut stream, &output.display().to_string(), options)?;
     let (file, bytes) = stream.finish();
     file.commit()?;

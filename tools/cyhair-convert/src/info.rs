@@ -35,8 +35,8 @@ fn as_json(input: &Input, figures: &Statistics) -> Value {
         "strand_points": figures.strand_points.map(|(min, max)| json!({ "min": min, "max": max })),
         "strand_length": range(figures.strand_length),
         "segment_length": range(figures.segment_length),
-        "radius": range(figures.radius),
-        "bounds": figures.bounds.map(|(min, max)| json!({ "min": min.to_array(), "max": max.to_array() })),
+        "radius": figures.radius.map(radius_json),
+        "bounds": figures.bounds.map(|(min, max)| json!({ "min": floats::<3>(min), "max": floats::<3>(max) })),
         "zero_length_segments": figures.zero_length_segments,
         "one_point_strands": figures.one_point_strands,
         "sharp_bends": figures.sharp_bends,
@@ -52,10 +52,26 @@ fn hair_json(groom: &Groom, extras: &HairExtras) -> Value {
         "info": info_text(extras),
         "arrays": arrays(groom, extras),
         "default_segments": extras.default_segments,
-        "default_thickness": extras.default_thickness,
-        "default_transparency": extras.default_transparency,
-        "default_color": extras.default_color,
+        "default_thickness": shortest(extras.default_thickness),
+        "default_transparency": shortest(extras.default_transparency),
+        "default_color": floats::<3>(extras.default_color),
     })
+}
+
+/// The 64-bit number with the fewest digits that is this one in 32 bits: JSON has no other, and 0.05
+/// widened would read 0.05000000074505806.
+fn shortest(value: f32) -> f64 {
+    value.to_string().parse().unwrap_or(value.into())
+}
+
+fn floats<const N: usize>(values: impl Into<[f32; N]>) -> Value {
+    values.into().map(shortest).to_vec().into()
+}
+
+/// Radii have 32 bits, and so must their mean, or it could lie beyond both ends.
+fn radius_json(range: Range) -> Value {
+    let [min, mean, max] = [range.min, range.mean, range.max].map(|value| shortest(value as f32));
+    json!({ "min": min, "mean": mean, "max": max })
 }
 
 fn arrays(groom: &Groom, extras: &HairExtras) -> Vec<&'static str> {
@@ -86,9 +102,9 @@ fn attribute_json((name, attribute): (&str, &Attribute)) -> Value {
 
 fn first(values: &Values) -> Value {
     match values {
-        Values::Float(v) => json!(v.first()),
-        Values::Vec2(v) => json!(v.first().map(|v| v.to_array())),
-        Values::Vec3(v) => json!(v.first().map(|v| v.to_array())),
+        Values::Float(v) => json!(v.first().copied().map(shortest)),
+        Values::Vec2(v) => json!(v.first().map(|&v| floats::<2>(v))),
+        Values::Vec3(v) => json!(v.first().map(|&v| floats::<3>(v))),
         Values::Int(v) => json!(v.first()),
     }
 }
@@ -167,6 +183,7 @@ fn line(name: &str, value: impl std::fmt::Display) -> String {
     format!("  {name:<16} {value}")
 }
 
+/// In 32 bits, which is as many digits as mean something, however small the unit.
 fn range_text(range: Range) -> String {
-    format!("{:.6} .. {:.6}, mean {:.6}", range.min, range.max, range.mean)
+    format!("{} .. {}, mean {}", range.min as f32, range.max as f32, range.mean as f32)
 }

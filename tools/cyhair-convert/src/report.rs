@@ -2,7 +2,7 @@
 
 use std::io::{self, Write};
 
-use anyhow::Result;
+use anyhow::{Context, Result};
 use serde_json::Value;
 
 /// Says on stderr what was odd, lost or mended.
@@ -21,5 +21,5 @@ pub(crate) fn print_json(value: &Value) -> Result<()> {
 
 /// Prints lines on stdout.
 pub(crate) fn print(text: &str) -> Result<()> {
-    Ok(writeln!(io::stdout().lock(), "{}", text.trim_end())?)
+    writeln!(io::stdout().lock(), "{}", text.trim_end()).context("standard output")
 }

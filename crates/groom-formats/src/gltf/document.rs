@@ -5,7 +5,7 @@ use std::io;
 
 use gltf::json::accessor::{ComponentType, GenericComponentType, Type};
 use gltf::json::buffer::{Stride, Target, View};
-use gltf::json::material::{PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
+use gltf::json::material::{AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked::{self, Valid};
 use gltf::json::validation::USize64;
@@ -81,7 +81,7 @@ impl Builder {
         }
         let widths = self.array(&vertex(4, ComponentType::F32, Type::Scalar));
         attributes.insert(Valid(Semantic::Extras("WIDTH".to_owned())), widths);
-        let material = Some(self.root.push(hair_material()));
+        let material = Some(self.root.push(hair_material(plan.is_clear)));
         Primitive {
             attributes,
             extensions: None,
@@ -139,10 +139,12 @@ impl Builder {
     }
 }
 
-/// White, so that COLOR_0 shows as it is; glTF's default material is a metal, which hair is not.
-fn hair_material() -> Material {
+/// White, so that COLOR_0 shows as it is; glTF's default material is a metal, which hair is not. Alpha
+/// is looked at only when the material asks for it.
+fn hair_material(is_clear: bool) -> Material {
     Material {
         name: Some("Hair".to_owned()),
+        alpha_mode: Valid(if is_clear { AlphaMode::Blend } else { AlphaMode::Opaque }),
         pbr_metallic_roughness: PbrMetallicRoughness {
             base_color_factor: PbrBaseColorFactor([1.0; 4]),
             metallic_factor: StrengthFactor(0.0),

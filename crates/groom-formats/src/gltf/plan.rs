@@ -19,6 +19,8 @@ pub(crate) struct Plan<'a> {
     pub(super) min: Vec3,
     pub(super) max: Vec3,
     pub(super) colors: Option<Colors<'a>>,
+    /// Whether any point as written lets light through.
+    pub(super) is_clear: bool,
     warnings: Vec<Warning>,
 }
 
@@ -43,10 +45,11 @@ impl<'a> Plan<'a> {
         let drawable = Drawable::new(groom, format, file, &mut warnings)?;
         unstored::left_out(groom, format, &[names::RADIUS, names::COLOR, names::TRANSPARENCY], &mut warnings);
         let colors = colors_of(groom);
-        let mut plan = Plan { drawable, min: Vec3::INFINITY, max: Vec3::NEG_INFINITY, colors, warnings };
+        let (min, max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        let mut plan = Plan { drawable, min, max, colors, is_clear: false, warnings };
         plan.refuse_too_large(format, file)?;
         plan.measure(format, file)?;
-        plan.warn_of_rounding(format);
+        plan.judge_colors(format);
         Ok(plan)
     }
 
@@ -115,12 +118,14 @@ impl<'a> Plan<'a> {
         Err(FormatError::Unsupported { file: file.to_owned(), format, what })
     }
 
-    fn warn_of_rounding(&mut self, format: Format) {
+    /// Warns of what 8 bits lose, and notes whether there is anything to see through.
+    fn judge_colors(&mut self, format: Format) {
         let Some(colors) = self.colors else { return };
         let mut clamped = [0; 2];
         let mut error = [0.0_f32; 2];
         for (strand, vertex) in self.drawable.vertices() {
             let rgba = colors.rgba(strand, vertex);
+            self.is_clear |= bytes::in_8_bits(rgba[3]) < u8::MAX;
             for (part, channels) in [(0, &rgba[..3]), (1, &rgba[3..])] {
                 clamped[part] += usize::from(channels.iter().any(|c| !(0.0..=1.0).contains(c)));
                 for channel in channels.iter().map(|c| c.clamp(0.0, 1.0)) {

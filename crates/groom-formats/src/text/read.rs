@@ -13,6 +13,9 @@ const MEANINGS: usize = 8;
 /// No line of numbers is longer; a file without line ends must not fill the memory.
 const LINE_LIMIT: u64 = 1 << 16;
 
+/// Some editors put it before the first line.
+const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
+
 /// Radius of a file that has none, in its units: HAIR's default thickness of 1.
 const DEFAULT_RADIUS: f32 = 0.5;
 
@@ -31,7 +34,9 @@ pub fn read(stream: impl Read, name: &str, options: &ReadOptions) -> Result<Load
             break;
         }
         parser.line += 1;
-        parser.take_line(&line)?;
+        let start =
+            if parser.line == 1 && line.starts_with(BYTE_ORDER_MARK) { BYTE_ORDER_MARK.len() } else { 0 };
+        parser.take_line(&line[start..])?;
     }
     parser.finish(options)
 }
@@ -55,6 +60,7 @@ impl Parser<'_> {
         if line.len() as u64 >= LINE_LIMIT {
             return self.fault(1, "a line of over 65,000 bytes".into(), "numbers and line ends");
         }
+        let line = without_end(line);
         let mut values = [0.0; MEANINGS];
         let mut count = 0;
         let mut rest = 0;
@@ -187,16 +193,28 @@ impl Parser<'_> {
     }
 }
 
-/// Start and end of the next run of bytes that are no white space.
+/// The line without `\n` or `\r\n`. A `\r` elsewhere is part of a word, and refused there: lines that
+/// end with it alone would be read as one long line.
+fn without_end(line: &[u8]) -> &[u8] {
+    let line = line.strip_suffix(b"\n").unwrap_or(line);
+    line.strip_suffix(b"\r").unwrap_or(line)
+}
+
+/// Start and end of the next run of bytes that are neither space nor tab.
 #[inline]
 fn next_word(line: &[u8], from: usize) -> Option<(usize, usize)> {
-    let start = from + line[from..].iter().position(|byte| !byte.is_ascii_whitespace())?;
-    let length = line[start..].iter().position(u8::is_ascii_whitespace);
+    let is_gap = |byte: &u8| matches!(byte, b' ' | b'\t');
+    let start = from + line[from..].iter().position(|byte| !is_gap(byte))?;
+    let length = line[start..].iter().position(is_gap);
     Some((start, length.map_or(line.len(), |length| start + length)))
 }
 
-/// A word for a message, cut when it is long.
+/// A word for a message, cut when it is long; what cannot be seen is spelt out.
 fn quoted(word: &[u8]) -> String {
     let cut = &word[..word.len().min(40)];
-    format!("`{}`{}", String::from_utf8_lossy(cut), if cut.len() < word.len() { "..." } else { "" })
+    format!(
+        "`{}`{}",
+        String::from_utf8_lossy(cut).escape_debug(),
+        if cut.len() < word.len() { "..." } else { "" }
+    )
 }

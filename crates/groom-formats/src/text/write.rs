@@ -33,8 +33,8 @@ pub(crate) fn write(groom: &Groom, stream: &mut impl Write, file: &str) -> Resul
                 column.push(&mut out, strand, vertex);
             }
             out.push(b"\n");
+            out.hand_on().map_err(|e| FormatError::io(file, e))?;
         }
-        out.hand_on().map_err(|e| FormatError::io(file, e))?;
     }
     out.finish().map_err(|e| FormatError::io(file, e))?;
     Ok(warnings)

@@ -6,7 +6,7 @@ use glam::Vec3;
 use groom::{Groom, UpAxis};
 
 use crate::drawable::Drawable;
-use crate::numbers::TextOut;
+use crate::numbers::{TextOut, shortest};
 use crate::usda::primvar;
 use crate::{Format, FormatError, Warning};
 
@@ -56,7 +56,7 @@ def Xform "Groom" (
         uniform token wrap = "nonperiodic"
 "#,
         version = env!("CARGO_PKG_VERSION"),
-        unit = groom.meters_per_unit,
+        unit = shortest(groom.meters_per_unit),
     )
 }
 
@@ -127,8 +127,8 @@ pub(super) fn per_vertex<W: Write>(
             separate(out, place, vertex == first);
             push(out, strand, vertex);
             place += 1;
+            out.hand_on()?;
         }
-        out.hand_on()?;
     }
     Ok(())
 }
