@@ -90,6 +90,21 @@ pub mod validators {
         wanted(folder.join("node_modules/gltf-validator")).map(|_| folder)
     }
 
+    /// Node: the one in `PATH`, else the one installed into `target/venv` for machines that have none;
+    /// `None` only when skipping was asked for.
+    ///
+    /// # Panics
+    /// When it is missing and `GROOMKIT_SKIP_VALIDATORS` is not `1`.
+    #[must_use]
+    pub fn node() -> Option<PathBuf> {
+        let program = PathBuf::from(format!("node{}", std::env::consts::EXE_SUFFIX));
+        let folders = std::env::var_os("PATH").unwrap_or_default();
+        let in_path = std::env::split_paths(&folders).map(|folder| folder.join(&program));
+        let folder = if cfg!(windows) { "Scripts" } else { "bin" };
+        let installed = super::workspace().join("target/venv").join(folder).join(&program);
+        wanted(in_path.into_iter().find(|path| path.is_file()).unwrap_or(installed))
+    }
+
     fn wanted(path: PathBuf) -> Option<PathBuf> {
         if path.exists() {
             return Some(path);

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints a stage's metadata and its BasisCurves as JSON, floats as the unsigned value of their 32 bits."""
+"""Prints the metadata and BasisCurves of stages as a JSON list, arrays as 8 hexadecimal digits a value."""
 
 import json
 import sys
@@ -9,11 +9,11 @@ from pxr import Tf, Usd, UsdGeom
 
 
 def bits(values):
-    """A flat list: floats as the unsigned integers with the same bits, integers as they are."""
-    array = np.asarray(values)
-    if array.dtype == np.float32:
-        array = array.view(np.uint32)
-    return array.ravel().tolist()
+    """The 32 bits of every value in order, as one string: far quicker to pass on than lists of numbers."""
+    array = np.ascontiguousarray(values)
+    if array.dtype.itemsize != 4:
+        raise TypeError(f"expected values of 32 bits, found {array.dtype}")
+    return array.view(np.uint32).astype(">u4").tobytes().hex()
 
 
 def curves_of(prim):
@@ -40,24 +40,30 @@ def curves_of(prim):
     }
 
 
-def main():
-    if len(sys.argv) != 2:
-        print("usage: dump.py FILE", file=sys.stderr)
-        return 2
-    try:
-        stage = Usd.Stage.Open(sys.argv[1])
-    except Tf.ErrorException as error:
-        print(f"error: {sys.argv[1]}: {error}", file=sys.stderr)
-        return 2
+def dump(stage):
+    """Everything about one stage."""
     prims = [prim for prim in stage.Traverse() if prim.IsA(UsdGeom.BasisCurves)]
-    report = {
+    return {
         "defaultPrim": stage.GetDefaultPrim().GetName(),
         "upAxis": str(UsdGeom.GetStageUpAxis(stage)),
         "metersPerUnit": UsdGeom.GetStageMetersPerUnit(stage),
         "timeCodesPerSecond": stage.GetTimeCodesPerSecond(),
         "curves": [curves_of(prim) for prim in prims],
     }
-    json.dump(report, sys.stdout)
+
+
+def main():
+    if len(sys.argv) < 2:
+        print("usage: dump.py FILE...", file=sys.stderr)
+        return 2
+    reports = []
+    for path in sys.argv[1:]:
+        try:
+            reports.append(dump(Usd.Stage.Open(path)))
+        except Tf.ErrorException as error:
+            print(f"error: {path}: {error}", file=sys.stderr)
+            return 2
+    json.dump(reports, sys.stdout)
     return 0
 
 
