@@ -8,7 +8,8 @@ use std::path::Path;
 /// A file counts as stale when it carries `path`'s temporary name and its process is gone. Where that
 /// cannot be told (no `/proc`), nothing is removed.
 pub fn clear_stale(path: impl AsRef<Path>) -> usize {
-    let path = path.as_ref();
+    // As when it was created: beside the file a link points at.
+    let path = path.as_ref().canonicalize().unwrap_or_else(|_| path.as_ref().to_owned());
     let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return 0 };
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let prefix = format!(".{}.", name.to_string_lossy());
