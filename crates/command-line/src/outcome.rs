@@ -1,6 +1,6 @@
 //! From a result to an exit code.
 
-use std::io;
+use std::io::{self, Write};
 use std::process::ExitCode;
 
 use crate::interrupt;
@@ -31,7 +31,8 @@ impl From<Outcome> for ExitCode {
 
 /// Runs a program's body: handles Ctrl-C, prints errors with their causes, returns the exit code.
 ///
-/// A typed error of a library converts by `?`. A reader that closes the pipe early (`| head`) is no error: the program ends quietly with 0.
+/// A typed error of a library converts by `?`. A reader that closes the pipe early (`| head`) is no
+/// error: the program ends quietly with 0.
 pub fn run(body: impl FnOnce() -> anyhow::Result<Outcome>) -> ExitCode {
     interrupt::install();
     match body() {
@@ -40,10 +41,8 @@ pub fn run(body: impl FnOnce() -> anyhow::Result<Outcome>) -> ExitCode {
             if is_closed_pipe(&error) {
                 return Outcome::Good.into();
             }
-            #[allow(clippy::print_stderr)] // the one place where every program says what went wrong
-            {
-                eprintln!("error: {}", in_words(&error));
-            }
+            // `eprintln!` would panic when nobody reads stderr any more.
+            let _ = writeln!(io::stderr(), "error: {}", in_words(&error));
             Outcome::Failed.into()
         }
     }

@@ -1,5 +1,6 @@
 //! Progress bars for work of over a second.
 
+use std::io::Write;
 use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -52,10 +53,8 @@ impl Bar {
     /// Prints a line above the bar, on stderr; a plain line when there is no bar.
     pub fn say(&self, line: &str) {
         self.bar.suspend(|| {
-            #[allow(clippy::print_stderr)] // words of a program go to stderr
-            {
-                eprintln!("{line}");
-            }
+            // `eprintln!` would panic when nobody reads stderr any more.
+            let _ = writeln!(std::io::stderr(), "{line}");
         });
     }
 
@@ -64,8 +63,12 @@ impl Bar {
         self.bar.finish_and_clear();
     }
 
+    fn is_due(&self) -> bool {
+        self.start.elapsed() >= PATIENCE
+    }
+
     fn show_when_due(&self) {
-        if self.bar.is_hidden() && self.start.elapsed() >= PATIENCE {
+        if self.bar.is_hidden() && self.is_due() {
             // Ten draws a second; indicatif itself draws nothing when stderr is no terminal.
             self.bar.set_draw_target(ProgressDrawTarget::stderr_with_hz(10));
         }
@@ -77,10 +80,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn short_work_shows_no_bar() {
+    fn only_long_work_shows_a_bar() {
+        // In a test stderr may be no terminal, where the bar stays hidden in any case.
+        let now = Instant::now();
+        let started = |ago| Bar { start: now - ago, ..progress_bar(10, "converting") };
+        assert!(!Bar { start: now + Duration::from_secs(60), ..progress_bar(10, "converting") }.is_due());
+        assert!(started(PATIENCE).is_due());
         let bar = progress_bar(10, "converting");
         bar.inc(5);
-        assert!(bar.bar.is_hidden());
+        bar.inc(2);
+        assert_eq!(bar.bar.position(), 7);
         bar.finish();
     }
 }
