@@ -51,6 +51,9 @@ impl<T: Value + Zeroable> Cursor<T> {
         let io = |source| HairError::Io { field: self.field, offset: self.span.offset, source };
         let start = self.span.offset + (self.span.count - self.unread) * size_of::<T>() as u64;
         file.seek(SeekFrom::Start(start)).map_err(io)?;
+        let Span { offset, bytes, .. } = self.span;
+        let out_of_memory = |_| HairError::OutOfMemory { field: self.field, offset, bytes };
+        self.buffer.try_reserve(ahead as usize).map_err(out_of_memory)?;
         self.buffer.resize(held + ahead as usize, T::zeroed());
         let bytes = bytemuck::cast_slice_mut(&mut self.buffer[held..]);
         match file.read_exact(bytes) {

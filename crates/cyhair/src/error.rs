@@ -1,6 +1,7 @@
 //! Why a HAIR file is refused.
 
-use std::{io, path::PathBuf};
+use std::io;
+use std::path::{Path, PathBuf};
 
 use crate::{Field, LookAlike};
 
@@ -15,6 +16,14 @@ pub enum HairError {
         path: PathBuf,
         /// What the system said.
         source: io::Error,
+    },
+    /// The file at a path is refused, or could not be read to its end.
+    #[error("{}: {source}", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it; any of the other errors.
+        source: Box<HairError>,
     },
     /// Reading or writing failed.
     #[error("{field} at byte {offset}: input or output failed")]
@@ -138,4 +147,11 @@ pub enum HairError {
         /// Strands that came.
         found: u64,
     },
+}
+
+impl HairError {
+    /// This error, naming the file it is about.
+    pub(crate) fn of_file(self, path: &Path) -> Self {
+        HairError::File { path: path.to_owned(), source: Box::new(self) }
+    }
 }

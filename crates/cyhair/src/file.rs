@@ -6,7 +6,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use crate::check::{self, Oddities};
-use crate::little_endian::{Value, swap_on_big_endian};
+use crate::little_endian::Value;
 use crate::source::Source;
 use crate::{Field, HEADER_BYTES, HairError, Header, Layout, Warning};
 
@@ -42,10 +42,12 @@ impl HairFile {
     /// Reads the file at `path`.
     ///
     /// # Errors
-    /// [`HairError::Open`], and everything [`HairFile::read`] refuses.
+    /// [`HairError::Open`], and everything [`HairFile::read`] refuses, as the source of a
+    /// [`HairError::File`] that names the path.
     pub fn open(path: impl AsRef<Path>) -> Result<Loaded, HairError> {
-        let (file, len) = open_file(path.as_ref())?;
-        Self::read(file, len)
+        let path = path.as_ref();
+        let (file, len) = open_file(path)?;
+        Self::read(file, len).map_err(|error| error.of_file(path))
     }
 
     /// Reads a file from its bytes.
@@ -59,7 +61,8 @@ impl HairFile {
     /// Reads a file from a stream, whose length is `known_len` if somebody knows it.
     ///
     /// With a length, counts that promise more are refused before anything is allocated. Without
-    /// one, memory grows with what arrives: never beyond twice that plus 1 MiB, whatever the header says.
+    /// one, memory grows with what arrives: never to more than twice that plus 64 KiB, whatever the header
+    /// says.
     /// No buffering is needed around `reader`.
     ///
     /// # Errors
@@ -71,15 +74,13 @@ impl HairFile {
         let layout = check::header(&header, known_len)?;
         let mut oddities = Oddities::default();
 
-        let segments: Option<Vec<u16>> = read_array(&mut source, &layout, Field::Segments)?;
+        let segments: Option<Vec<u16>> = read_array(&mut source, &layout, Field::Segments, |_, _| Ok(()))?;
         check_segments(&header, segments.as_deref(), &mut oddities)?;
-        let points: Option<Vec<[f32; 3]>> = read_array(&mut source, &layout, Field::Points)?;
-        if let (Some(points), Some(span)) = (&points, layout.span(Field::Points)) {
-            check::points(points, 0, span.offset)?;
-        }
-        let thickness: Option<Vec<f32>> = read_array(&mut source, &layout, Field::Thickness)?;
-        let transparency: Option<Vec<f32>> = read_array(&mut source, &layout, Field::Transparency)?;
-        let colors: Option<Vec<[f32; 3]>> = read_array(&mut source, &layout, Field::Colors)?;
+        let mut coincide = false;
+        let points = read_points(&mut source, &layout, &mut coincide)?;
+        let thickness = read_values(&mut source, &layout, Field::Thickness, &mut oddities)?;
+        let transparency = read_values(&mut source, &layout, Field::Transparency, &mut oddities)?;
+        let colors = read_values(&mut source, &layout, Field::Colors, &mut oddities)?;
 
         let mut warnings = check::header_warnings(&header);
         let trailing = source.rest()?;
@@ -87,7 +88,12 @@ impl HairFile {
             warnings.push(Warning::TrailingBytes { offset: layout.end, bytes: trailing });
         }
         let file = HairFile { header, segments, points, thickness, transparency, colors };
-        file.note_oddities(&mut oddities);
+        // Looking at neighbours across strands first is quick, and nearly always enough.
+        if let Some(points) = file.points.as_deref().filter(|_| coincide) {
+            for range in file.strand_ranges() {
+                oddities.strand(range.start as u64, &points[range]);
+            }
+        }
         warnings.extend(oddities.warnings(&layout));
         Ok(Loaded { file, warnings })
     }
@@ -137,6 +143,11 @@ impl HairFile {
         }
     }
 
+    /// Length of the arrays that have a value for each point; `None` when there is none of them.
+    pub(crate) fn per_point_len(&self) -> Option<usize> {
+        self.array_lens()[1..].iter().copied().flatten().next()
+    }
+
     /// Lengths of the arrays, in the order of [`Field::ARRAYS`].
     pub(crate) fn array_lens(&self) -> [Option<usize>; 5] {
         [
@@ -146,23 +157,6 @@ impl HairFile {
             self.transparency.as_ref().map(Vec::len),
             self.colors.as_ref().map(Vec::len),
         ]
-    }
-
-    fn note_oddities(&self, oddities: &mut Oddities) {
-        // Looking at neighbours across strands first is quick, and nearly always enough.
-        if let Some(points) = self.points.as_deref().filter(|points| check::neighbours_coincide(points)) {
-            for range in self.strand_ranges() {
-                oddities.strand(range.start as u64, &points[range]);
-            }
-        }
-        let floats = [
-            (Field::Thickness, self.thickness.as_deref()),
-            (Field::Transparency, self.transparency.as_deref()),
-            (Field::Colors, self.colors.as_deref().map(bytemuck::cast_slice)),
-        ];
-        for (field, values) in floats {
-            oddities.values(field, 0, values.unwrap_or_default());
-        }
     }
 }
 
@@ -203,16 +197,45 @@ fn short_header(found: u64) -> HairError {
     HairError::Truncated { field, offset, expected, found: found - offset }
 }
 
-/// Reads one array, if the header announces it.
+/// Reads one array, if the header announces it; `look` sees it block by block.
 pub(crate) fn read_array<R: Read, T: Value>(
     source: &mut Source<R>,
     layout: &Layout,
     field: Field,
+    look: impl FnMut(u64, &[T]) -> Result<(), HairError>,
 ) -> Result<Option<Vec<T>>, HairError> {
-    let Some(span) = layout.span(field) else { return Ok(None) };
-    let mut values = source.array(field, span)?;
-    swap_on_big_endian(&mut values);
-    Ok(Some(values))
+    layout.span(field).map(|span| source.array(field, span, look)).transpose()
+}
+
+/// Reads one array of values that need not be finite, and notes those that are not.
+fn read_values<R: Read, T: Value>(
+    source: &mut Source<R>,
+    layout: &Layout,
+    field: Field,
+    oddities: &mut Oddities,
+) -> Result<Option<Vec<T>>, HairError> {
+    let floats = (size_of::<T>() / size_of::<f32>()) as u64;
+    read_array(source, layout, field, |first, block| {
+        oddities.values(field, first * floats, bytemuck::cast_slice(block));
+        Ok(())
+    })
+}
+
+/// Reads the points, refusing any that is not finite; sets `coincide` when neighbours coincide
+/// somewhere, be it only where one strand ends and the next begins.
+fn read_points<R: Read>(
+    source: &mut Source<R>,
+    layout: &Layout,
+    coincide: &mut bool,
+) -> Result<Option<Vec<[f32; 3]>>, HairError> {
+    let offset = layout.span(Field::Points).map_or(0, |span| span.offset);
+    let mut last = None;
+    read_array(source, layout, Field::Points, |first, block: &[[f32; 3]]| {
+        check::points(block, first, offset)?;
+        *coincide |= check::neighbours_coincide(block) || last.as_ref() == block.first();
+        last = block.last().copied();
+        Ok(())
+    })
 }
 
 /// Refuses segments that do not add up to the point count, and notes strands without any.

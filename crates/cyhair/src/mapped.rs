@@ -1,6 +1,6 @@
 //! A HAIR file mapped into memory: the only unsafe code of the workspace.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use memmap2::Mmap;
 
@@ -15,6 +15,7 @@ use crate::{HairError, HairView};
 #[derive(Debug)]
 pub struct MappedHair {
     map: Mmap,
+    path: PathBuf,
 }
 
 impl MappedHair {
@@ -23,16 +24,18 @@ impl MappedHair {
     /// # Errors
     /// [`HairError::Open`].
     pub fn open(path: impl AsRef<Path>) -> Result<Self, HairError> {
-        let path = path.as_ref();
-        let (file, _) = open_file(path)?;
+        let path = path.as_ref().to_owned();
+        let (file, _) = open_file(&path)?;
         // SAFETY: the map is read-only and private to this value, and every view of it borrows this
         // value, so no view outlives the map. Every byte pattern is a valid `u8`, and values are made
         // from bytes by copies or by checked casts. What cannot be ruled out, a file changed in place
         // by somebody else, is the caller's to avoid and said in the type's documentation.
         #[allow(unsafe_code)]
         let map = unsafe { Mmap::map(&file) };
-        let map = map.map_err(|source| HairError::Open { path: path.to_owned(), source })?;
-        Ok(MappedHair { map })
+        match map {
+            Ok(map) => Ok(MappedHair { map, path }),
+            Err(source) => Err(HairError::Open { path, source }),
+        }
     }
 
     /// The bytes of the file.
@@ -44,8 +47,8 @@ impl MappedHair {
     /// Checks the file and gives its arrays in place.
     ///
     /// # Errors
-    /// As [`HairView::new`].
+    /// Those of [`HairView::new`], as the source of a [`HairError::File`] that names the path.
     pub fn view(&self) -> Result<HairView<'_>, HairError> {
-        HairView::new(&self.map)
+        HairView::new(&self.map).map_err(|error| error.of_file(&self.path))
     }
 }

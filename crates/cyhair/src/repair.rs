@@ -199,6 +199,7 @@ impl HairFile {
 /// Which points stay, and the strands they make.
 #[derive(Default)]
 struct Plan {
+    /// One for each point, if any array has values for points; a header alone may promise 2^32.
     keep: Vec<bool>,
     segments: Vec<u64>,
     not_finite: u64,
@@ -208,7 +209,25 @@ struct Plan {
 
 impl Plan {
     fn of(file: &HairFile) -> Plan {
-        let mut plan = Plan { keep: vec![true; file.header.point_count as usize], ..Plan::default() };
+        match file.per_point_len() {
+            Some(points) => Plan::of_points(file, points),
+            None => Plan::of_segments(file),
+        }
+    }
+
+    /// Without values for points all that can be wrong with a strand is its number of segments.
+    fn of_segments(file: &HairFile) -> Plan {
+        let Some(segments) = &file.segments else {
+            // All strands are alike, and nothing is as long as the header says there are.
+            let short = if file.header.default_segments == 0 { file.header.hair_count } else { 0 };
+            return Plan { short: short.into(), ..Plan::default() };
+        };
+        let kept: Vec<u64> = segments.iter().filter(|&&count| count > 0).map(|&c| c.into()).collect();
+        Plan { short: (segments.len() - kept.len()) as u64, segments: kept, ..Plan::default() }
+    }
+
+    fn of_points(file: &HairFile, points: usize) -> Plan {
+        let mut plan = Plan { keep: vec![true; points], ..Plan::default() };
         for range in file.strand_ranges() {
             let keep = &mut plan.keep[range.clone()];
             if let Some(points) = &file.points {

@@ -36,7 +36,7 @@ impl HairFile {
             return Err(HairError::NoStrands);
         }
         let mut repairs = Vec::new();
-        let segments = read_array(&mut source, &header.layout(), Field::Segments)?;
+        let segments = read_array(&mut source, &header.layout(), Field::Segments, |_, _| Ok(()))?;
         mend_counts(&mut header, segments.as_deref(), len, &mut repairs)?;
         let promised = header.layout().end;
         drop_cut_arrays(&mut header, len, &mut repairs);
@@ -71,13 +71,16 @@ fn mend_counts(
     if sum == points {
         return Ok(());
     }
+    // The length tells something about the points only where there are values for them.
+    let per_point = header.layout().spans().any(|(field, _)| field != Field::Segments);
     let ends_right = |point_count| Header { point_count, ..*header }.layout().end == len;
-    let by_sum = u32::try_from(sum).ok().filter(|&sum| ends_right(sum));
-    let by_count = ends_right(header.point_count);
+    let trusted = per_point || segments.is_some();
+    let by_sum = u32::try_from(sum).ok().filter(|&sum| trusted && ends_right(sum));
+    let by_count = per_point && ends_right(header.point_count);
     // Neither divisor can be zero: there are strands, and every strand has a point.
     let exact = |value: u64, by: u64| value.is_multiple_of(by).then(|| value / by);
     let (field, to) = match (by_sum, by_count, segments) {
-        (Some(sum), false, _) | (Some(sum), true, Some(_)) => (Field::PointCount, u64::from(sum)),
+        (Some(sum), false, _) => (Field::PointCount, u64::from(sum)),
         // The length proves the point count, so the strands are wrong: in their number or in theirs.
         (None, true, None) => match (exact(points, default + 1), exact(points, hairs)) {
             (Some(hairs), None) if hairs > 0 => (Field::HairCount, hairs),

@@ -2,12 +2,12 @@
 
 use std::io::{self, Read};
 
-use bytemuck::Pod;
-
+use crate::little_endian::{Value, swap_on_big_endian};
 use crate::{Field, HairError, Span};
 
-/// What a stream of unknown length is asked for at first; later reads at most double what arrived.
-const FIRST_CHUNK_BYTES: usize = 1 << 20;
+/// Arrays are read in blocks of this size, which are still in the processor's cache when they are
+/// looked at and copied to their place: fresh memory is touched once, and never only to be zeroed.
+const BLOCK_BYTES: usize = 1 << 16;
 
 /// A byte stream that knows how far it has come and, perhaps, how long it is.
 pub(crate) struct Source<R> {
@@ -38,30 +38,34 @@ impl<R: Read> Source<R> {
         Ok(filled)
     }
 
-    /// Reads one array. Memory is taken at once when the length is known to hold it, and otherwise
-    /// in chunks, so that never more than twice what has arrived plus 1 MiB is allocated.
-    pub(crate) fn array<T: Pod>(&mut self, field: Field, span: Span) -> Result<Vec<T>, HairError> {
+    /// Reads one array, showing `look` each block as it comes, with the index of its first value.
+    ///
+    /// Memory for the array is taken at once when the length is known to hold it; otherwise it grows
+    /// with what arrives, to never more than twice that. A block comes on top.
+    pub(crate) fn array<T: Value>(
+        &mut self,
+        field: Field,
+        span: Span,
+        mut look: impl FnMut(u64, &[T]) -> Result<(), HairError>,
+    ) -> Result<Vec<T>, HairError> {
         let out_of_memory = || HairError::OutOfMemory { field, offset: span.offset, bytes: span.bytes };
         let count = usize::try_from(span.count).map_err(|_| out_of_memory())?;
-        let whole = self.known_len.is_some_and(|len| len >= span.offset + span.bytes);
         let mut values: Vec<T> = Vec::new();
+        if self.known_len.is_some_and(|len| len >= span.offset + span.bytes) {
+            values.try_reserve_exact(count).map_err(|_| out_of_memory())?;
+        }
+        let mut block = vec![T::zeroed(); count.min(BLOCK_BYTES / size_of::<T>())];
         while values.len() < count {
-            let filled = values.len();
-            let chunk = filled.max(FIRST_CHUNK_BYTES / size_of::<T>());
-            let target = if whole { count } else { count.min(filled + chunk) };
-            if filled == 0 {
-                // Zeroed pages come from the system for free; they are never written twice.
-                values = bytemuck::try_zeroed_vec(target).map_err(|()| out_of_memory())?;
-            } else {
-                values.try_reserve_exact(target - filled).map_err(|_| out_of_memory())?;
-                values.resize(target, T::zeroed());
-            }
-            let bytes: &mut [u8] = bytemuck::cast_slice_mut(&mut values[filled..]);
-            let expected = bytes.len();
-            if self.fill(bytes, field)? < expected {
+            let missing = block.len().min(count - values.len());
+            let block = &mut block[..missing];
+            if self.fill(bytemuck::cast_slice_mut(block), field)? < size_of_val(block) {
                 let found = self.offset - span.offset;
                 return Err(HairError::Truncated { field, offset: span.offset, expected: span.bytes, found });
             }
+            swap_on_big_endian(block);
+            look(values.len() as u64, block)?;
+            values.try_reserve(missing).map_err(|_| out_of_memory())?;
+            values.extend_from_slice(block);
         }
         Ok(values)
     }

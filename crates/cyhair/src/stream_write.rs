@@ -9,7 +9,7 @@ use crate::{Field, HairError, Header, KNOWN_ARRAYS, Layout, Span, Strand, check}
 /// Bytes of one array collected before they are written to their place.
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// Writes a file strand by strand, with 64 KiB of memory an array beyond the segments.
+/// Writes a file strand by strand, with about 100 KiB of memory an array beyond the segments.
 ///
 /// The header and the segments are needed up front: they say where each array lies. Nothing is
 /// promised about the file before [`HairWriter::finish`].
@@ -56,7 +56,7 @@ impl<W: Write + Seek> HairWriter<W> {
             }
             check::point_count(&header, segments.iter().map(|&s| u64::from(s) + 1).sum())?;
         }
-        let io = |field| move |source| HairError::Io { field, offset: 0, source };
+        let io = |field: Field| move |source| HairError::Io { field, offset: field.header_offset(), source };
         file.write_all(&header.to_bytes()).map_err(io(Field::Magic))?;
         write_values(&mut file, segments.as_deref()).map_err(io(Field::Segments))?;
         let lane = |field| Lane::new(&layout, field);
