@@ -52,7 +52,8 @@ pub(crate) fn gather(
     for (name, attribute) in groom.attributes() {
         attributes.insert(name.to_owned(), pick(attribute, strands, places));
     }
-    if keep_ids && !attributes.contains_key(crate::names::ID) {
+    // An id that is not per strand identifies none.
+    if keep_ids && groom.attribute(crate::names::ID).is_none_or(|id| id.domain != Domain::Strand) {
         let ids = strands.iter().map(|&strand| strand as i32).collect();
         let attribute = Attribute { domain: Domain::Strand, values: Values::Int(ids) };
         attributes.insert(crate::names::ID.to_owned(), attribute);

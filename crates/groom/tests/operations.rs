@@ -133,6 +133,16 @@ fn resampling_a_straight_strand_spreads_points_evenly() {
 }
 
 #[test]
+fn strands_keep_their_identity_even_beside_an_id_of_the_whole_groom() {
+    let points: Vec<Vec3> = (0..6).map(|i| Vec3::splat(i as f32)).collect();
+    let mut groom = Groom::new(vec![0, 2, 4, 6], points).unwrap();
+    let id = Attribute { domain: Domain::Groom, values: Values::Int(vec![5]) };
+    groom.set_attribute(names::ID, id).unwrap();
+    let fewer = groom.subsample_by_stride(2).unwrap();
+    assert_eq!([fewer.strand_id(0), fewer.strand_id(1)], [0, 2]);
+}
+
+#[test]
 fn one_repair_a_fault() {
     let nan = Vec3::splat(f32::NAN);
     let points = vec![Vec3::ZERO, nan, Vec3::ZERO, Vec3::X, nan, Vec3::Y];
