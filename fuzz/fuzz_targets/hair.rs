@@ -19,6 +19,10 @@ fuzz_target!(|bytes: &[u8]| {
     let loaded = HairFile::from_bytes(bytes);
     assert_eq!(loaded.is_ok(), HairFile::read(bytes, None).is_ok());
     assert_eq!(loaded.is_ok(), HairView::new(bytes).is_ok());
+    // A header without arrays may promise 2^32 strands: right, but going through them takes minutes.
+    if loaded.as_ref().is_ok_and(|loaded| loaded.file.strand_count() > bytes.len()) {
+        return;
+    }
     assert_eq!(loaded.is_ok(), stream(bytes).is_ok());
     if let Ok(loaded) = loaded {
         let written = loaded.file.to_bytes().unwrap();
@@ -26,6 +30,7 @@ fuzz_target!(|bytes: &[u8]| {
         assert_eq!(stream(bytes).unwrap(), u64::from(loaded.file.header.hair_count));
     }
     if let Ok(repaired) = HairFile::read_and_repair(bytes) {
-        repaired.file.check().unwrap();
+        let again = HairFile::from_bytes(&repaired.file.to_bytes().unwrap()).unwrap();
+        assert!(again.warnings.len() <= usize::from(repaired.file.points.is_none()));
     }
 });
