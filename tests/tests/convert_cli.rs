@@ -244,6 +244,8 @@ fn what_a_format_cannot_hold_is_told() {
     let folder = Folder::new();
     let told = words(&folder.good(&["in.txt", "a.txt", "--meters-per-unit", "0.01", "--up", "y"]));
     assert!(told.contains("0.01 m") && told.contains("which way is up"), "{told}");
+    let told = words(&folder.good(&["in.txt", "a.txt", "--stride", "2"]));
+    assert!(!told.contains("warning"), "{told}");
 }
 
 #[test]

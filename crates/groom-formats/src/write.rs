@@ -71,14 +71,14 @@ pub fn write_to(
 fn write_gltf(groom: &Groom, path: &Path, name: &str) -> Result<Vec<Warning>, FormatError> {
     check::values(groom, name)?;
     let bytes_path = path.with_extension("bin");
-    let bytes_name = bytes_path.file_name().unwrap_or_default().to_string_lossy().into_owned();
+    let bytes_name = bytes_path.file_name().unwrap_or_default().as_encoded_bytes();
     let plan = crate::gltf::Plan::new(groom, Format::Gltf, name)?;
     let bytes_file = bytes_path.display().to_string();
     let (bytes, ()) = filled(&bytes_path, &bytes_file, |stream| {
         plan.write_bytes(stream).map_err(|e| FormatError::io(&bytes_file, e))
     })?;
     let (document, ()) = filled(path, name, |stream| {
-        let json = plan.json(Some(&bytes_name)).map_err(|e| FormatError::io(name, e))?;
+        let json = plan.json(Some(bytes_name)).map_err(|e| FormatError::io(name, e))?;
         stream.write_all(&json).map_err(|e| FormatError::io(name, e))
     })?;
     bytes.commit()?;

@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use anyhow::Result;
 use command_line::progress_bar;
-use groom::{Groom, GroomError};
+use groom::{Groom, GroomError, names};
 use groom_formats::{Format, Output, Warning, WriteOptions, write, write_to};
 use serde_json::json;
 use whole_file::clear_stale;
@@ -25,10 +25,13 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         report::say_all("repaired", &loaded.repairs)?;
         report::say_all("warning", &warnings)?;
     }
+    let had_ids = loaded.groom.attribute(names::ID).is_some();
     let groom = edit(loaded.groom, args)?;
     let options = WriteOptions { hair: loaded.hair };
     let (lost, output_bytes) = store(&groom, output, format, &options)?;
-    let lost: Vec<String> = lost.iter().map(ToString::to_string).collect();
+    // Thinning out gives the strands numbers; nobody misses those.
+    let is_missed = |warning: &&Warning| had_ids || !is_about_ids(warning);
+    let lost: Vec<String> = lost.iter().filter(is_missed).map(ToString::to_string).collect();
     let seconds = start.elapsed().as_secs_f64();
     if !args.json {
         report::say_all("warning", &lost)?;
@@ -56,6 +59,10 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         "warnings": warnings,
         "repairs": loaded.repairs,
     }))
+}
+
+fn is_about_ids(warning: &Warning) -> bool {
+    matches!(warning, Warning::AttributeLeftOut { name, .. } if name == names::ID)
 }
 
 /// Does what the options ask for, in the order of the help.

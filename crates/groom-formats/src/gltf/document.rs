@@ -14,20 +14,20 @@ use gltf::mesh::Semantic;
 
 use crate::gltf::Plan;
 
-pub(super) fn json(plan: &Plan<'_>, uri: Option<&str>) -> io::Result<Vec<u8>> {
+pub(super) fn json(plan: &Plan<'_>, bytes_name: Option<&[u8]>) -> io::Result<Vec<u8>> {
     let mut builder = Builder { root: Root::default(), used: 0, buffer: Index::new(0) };
     builder.root.asset.generator = Some(concat!("groomkit ", env!("CARGO_PKG_VERSION")).to_owned());
     builder.buffer = builder.root.push(Buffer {
         byte_length: plan.buffer_bytes().into(),
         name: None,
-        uri: uri.map(percent_encoded),
+        uri: bytes_name.map(percent_encoded),
         extensions: None,
         extras: None,
     });
     let primitive = builder.primitive(plan);
     builder.place(primitive);
     // A document is read by people when it stands alone.
-    let bytes = match uri {
+    let bytes = match bytes_name {
         Some(_) => serialize::to_vec_pretty(&builder.root),
         None => serialize::to_vec(&builder.root),
     };
@@ -156,9 +156,9 @@ fn hair_material(is_clear: bool) -> Material {
 }
 
 /// A file name as a relative URI: every byte but the unreserved ones of RFC 3986 as `%XX`.
-fn percent_encoded(name: &str) -> String {
+fn percent_encoded(name: &[u8]) -> String {
     let mut uri = String::with_capacity(name.len());
-    for byte in name.bytes() {
+    for &byte in name {
         if byte.is_ascii_alphanumeric() || b"-._~".contains(&byte) {
             uri.push(char::from(byte));
         } else {
@@ -174,7 +174,8 @@ mod tests {
 
     #[test]
     fn file_names_become_uris() {
-        assert_eq!(percent_encoded("head-1_a.bin"), "head-1_a.bin");
-        assert_eq!(percent_encoded("my hair#2 ä.bin"), "my%20hair%232%20%C3%A4.bin");
+        assert_eq!(percent_encoded(b"head-1_a.bin"), "head-1_a.bin");
+        assert_eq!(percent_encoded("my hair#2 ä.bin".as_bytes()), "my%20hair%232%20%C3%A4.bin");
+        assert_eq!(percent_encoded(b"\xff.bin"), "%FF.bin", "names need not be UTF-8");
     }
 }

@@ -57,9 +57,9 @@ impl<'a> Plan<'a> {
         self.warnings
     }
 
-    /// The document; `uri` names the file of bytes, `None` stands for the second chunk of a `.glb`.
-    pub(crate) fn json(&self, uri: Option<&str>) -> io::Result<Vec<u8>> {
-        document::json(self, uri)
+    /// The document; `bytes_name` is the file of bytes beside it, `None` stands for the second chunk of a `.glb`.
+    pub(crate) fn json(&self, bytes_name: Option<&[u8]>) -> io::Result<Vec<u8>> {
+        document::json(self, bytes_name)
     }
 
     /// The buffer the document describes.

@@ -17,8 +17,9 @@
 //! Mitsuba 3 loads the files as they are. The file has no unit and no up axis; z is taken for up,
 //! as for HAIR.
 //!
-//! The reader also takes tabs, CRLF, a byte order mark, spaces at either end, no line end at the end, several blank lines in a row, `x y z` alone
-//! (a warning, and the default radius) and more than eight columns (a warning; they are not read).
+//! The reader also takes tabs, CRLF, a byte order mark, spaces at either end, a last line without an
+//! end, several blank lines in a row, `x y z` alone (a warning, and the default radius) and more than
+//! eight columns (a warning; they are not read). Lines that end with CR alone are refused.
 //! All lines must have the same number of columns.
 
 mod read;
