@@ -1,5 +1,10 @@
 //! How fast a HAIR file is read from the page cache, and what memory that takes.
 //!
+//! `stream` keeps nothing. `read` drops every file again, and the system then takes the memory back:
+//! each pass pays for fresh pages, as a program that reads one file does. With glibc, what is left
+//! without that shows under `GLIBC_TUNABLES=glibc.malloc.trim_threshold=1000000000:\
+//! glibc.malloc.mmap_threshold=1000000000`.
+//!
 //! `cargo bench -p cyhair -- [PATH]`; without a path a file of 300 MB is made and removed again.
 #![allow(clippy::print_stdout)]
 
