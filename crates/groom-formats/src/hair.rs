@@ -57,15 +57,17 @@ fn extras_of(file: &HairFile) -> HairExtras {
 }
 
 fn groom_of(file: HairFile, name: &str) -> Result<Groom, FormatError> {
+    // First: without points a header may promise 2^32 strands that no byte of the file stands for.
+    if file.points.is_none() {
+        let what = "has no points array, so there are no strands to read";
+        return Err(FormatError::Unsupported { file: name.to_owned(), format: Format::Hair, what });
+    }
     let mut offsets = Vec::with_capacity(file.strand_count() + 1);
     offsets.push(0);
     // cyhair has checked that the ranges end at the point count, which is a u32.
     offsets.extend(file.strand_ranges().map(|range| range.end as u32));
     let HairFile { header, points, thickness, transparency, colors, .. } = file;
-    let Some(points) = points else {
-        let what = "has no points array, so there are no strands to read";
-        return Err(FormatError::Unsupported { file: name.to_owned(), format: Format::Hair, what });
-    };
+    let points = points.unwrap_or_default();
     let fault = |source: GroomError| FormatError::groom(name, source);
     // The same bytes under another name: nothing is copied.
     let mut groom = Groom::new(offsets, bytemuck::cast_vec::<[f32; 3], Vec3>(points)).map_err(fault)?;

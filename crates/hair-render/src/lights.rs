@@ -43,6 +43,11 @@ impl Lights {
         self.environment_chance > 0.0 || self.chances.last().is_some_and(|&c| c > 0.0)
     }
 
+    /// Whether all light is the same from everywhere.
+    pub fn are_even(&self) -> bool {
+        self.table.is_none() && self.rectangles.is_empty()
+    }
+
     /// Turns the environment to stand at `angle` radians.
     pub fn turn_environment(&mut self, angle: f32) {
         if let Some(environment) = &mut self.environment {
