@@ -22,6 +22,9 @@ mod line;
 use cone_sphere::ConeSphere;
 use line::Line;
 
+/// Timings of which the best counts.
+const ROUNDS: usize = 4;
+
 struct Hair {
     name: &'static str,
     offsets: Vec<u32>,
@@ -154,15 +157,15 @@ fn main() {
                 secondary.len() as f64 / shadowed / 1e6,
                 hits.len(),
             );
-            rays = Some((primary, secondary));
+            rays = Some((primary, secondary, tracer));
         }
-        let Some((primary, secondary)) = rays else { continue };
-        plain(&hair, &primary, &secondary);
+        let Some((primary, secondary, tracer)) = rays else { continue };
+        plain(&hair, &primary, &secondary, &tracer);
     }
 }
 
 /// `obvhs`'s own traversals, without the rules for leaving fibres.
-fn plain(hair: &Hair, primary: &[Ray], secondary: &[(Ray, Primitive)]) {
+fn plain(hair: &Hair, primary: &[Ray], secondary: &[(Ray, Primitive)], ours: &Tracer) {
     let ends: Vec<(Vec4, Vec4)> = hair
         .offsets
         .windows(2)
@@ -184,6 +187,7 @@ fn plain(hair: &Hair, primary: &[Ray], secondary: &[(Ray, Primitive)]) {
         let plain = obvhs::ray::Ray::new(ray.origin.into(), ray.direction.into(), 0.0, f32::INFINITY);
         (plain, Line::of(ray))
     };
+    let pairs = secondary;
     let secondary: Vec<Ray> = secondary.iter().map(|(ray, _)| *ray).collect();
     for (name, build) in [("Bvh2", binary_build), ("CwBvh", wide_build)] {
         let rate = |rays: &[Ray], any: bool| {
@@ -203,11 +207,34 @@ fn plain(hair: &Hair, primary: &[Ray], secondary: &[(Ray, Primitive)]) {
             });
             rays.len() as f64 / seconds / 1e6
         };
+        // Side by side, the best of several: the machine's other work comes and goes.
+        let mut theirs = [0.0_f64; 3];
+        let mut our = [0.0_f64; 3];
+        for _ in 0..ROUNDS {
+            let found = [rate(primary, false), rate(&secondary, false), rate(&secondary, true)];
+            theirs = std::array::from_fn(|i| theirs[i].max(found[i]));
+            let found = our_rates(ours, primary, pairs);
+            our = std::array::from_fn(|i| our[i].max(found[i]));
+        }
         println!(
             "  obvhs {name}: build {build:.2} s, primary {:.2}, bounce {:.2}, any {:.2} Mrays/s",
-            rate(primary, false),
-            rate(&secondary, false),
-            rate(&secondary, true),
+            theirs[0], theirs[1], theirs[2]
+        );
+        println!(
+            "    ours (Best) over {name}: primary {:.2}, bounce {:.2}, any {:.2}",
+            our[0] / theirs[0],
+            our[1] / theirs[1],
+            our[2] / theirs[2]
         );
     }
+}
+
+/// Millions of rays a second: primary, bounces, any hit of the bounces.
+fn our_rates(tracer: &Tracer, primary: &[Ray], secondary: &[(Ray, Primitive)]) -> [f64; 3] {
+    let (_, first) = timed(|| primary.iter().filter(|ray| tracer.closest(ray, None).is_some()).count());
+    let (_, bounced) =
+        timed(|| secondary.iter().filter(|(r, p)| tracer.closest(r, Some(*p)).is_some()).count());
+    let (_, any) = timed(|| secondary.iter().filter(|(r, p)| tracer.occluded(r, Some(*p))).count());
+    let rate = |rays: usize, seconds: f64| rays as f64 / seconds / 1e6;
+    [rate(primary.len(), first), rate(secondary.len(), bounced), rate(secondary.len(), any)]
 }

@@ -8,17 +8,13 @@ use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 use crate::fibres::Fibres;
 use crate::meshes::Meshes;
+use crate::pack::Packs;
+use crate::pieces::{self, Piece};
 use crate::wide_tree::WideTree;
 use crate::{BuildOptions, BuildQuality, Strands, TracingError, Triangles, bounds};
 
 /// Marks a leaf that is a triangle; its other bits are the triangle's number.
 pub(crate) const TRIANGLE: u32 = 1 << 30;
-
-/// One box of the tree and what is in it.
-struct Boxes {
-    boxes: Vec<Aabb>,
-    leaves: Vec<u32>,
-}
 
 /// Refuses what could not be numbered, before anything is allocated for it.
 pub(crate) fn check_counts(strands: &[Strands], triangles: &[Triangles]) -> Result<(), TracingError> {
@@ -35,29 +31,47 @@ pub(crate) fn check_counts(strands: &[Strands], triangles: &[Triangles]) -> Resu
     }
 }
 
-/// The tree over everything that can be hit, and the box around it all.
-pub(crate) fn tree(fibres: &Fibres, meshes: &Meshes, options: &BuildOptions) -> (WideTree, (Vec3, Vec3)) {
-    let Boxes { boxes, leaves } = boxes(fibres, meshes);
-    let all = boxes.iter().copied().reduce(|a, b| a.union(&b));
-    let bounds = all.map_or((Vec3::ZERO, Vec3::ZERO), |b| (b.min.into(), b.max.into()));
-    let binary = binary(&boxes, options.quality);
-    (WideTree::from_binary(&binary, |place| leaves[place]), bounds)
+/// What rays walk through.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Built {
+    pub(crate) tree: WideTree,
+    /// The leaves that hold segments.
+    pub(crate) packs: Packs,
+    /// Round everything.
+    pub(crate) bounds: (Vec3, Vec3),
 }
 
-fn boxes(fibres: &Fibres, meshes: &Meshes) -> Boxes {
-    let mut boxes = Vec::new();
-    let mut leaves = Vec::new();
-    for number in fibres.solid() {
-        if let Some((a, b)) = fibres.ends(number) {
-            boxes.push(bounds::of_segment(a, b));
-            leaves.push(number);
-        }
-    }
-    for (number, triangle) in meshes.all().iter().enumerate() {
-        boxes.push(bounds::of_triangle(triangle));
-        leaves.push(TRIANGLE | number as u32);
-    }
-    Boxes { boxes, leaves }
+/// The tree over everything that can be hit, and the box around it all.
+pub(crate) fn tree(fibres: &Fibres, meshes: &Meshes, options: &BuildOptions) -> Built {
+    let whole = whole(fibres);
+    let bounds = bounds(&whole, meshes);
+    let pieces = pieces::cut(whole);
+    let boxes: Vec<Aabb> = pieces
+        .iter()
+        .map(|piece| bounds::of_segment(piece.a, piece.b))
+        .chain(meshes.all().iter().map(bounds::of_triangle))
+        .collect();
+    let binary = binary(&boxes, options.quality);
+    let mut packs = Packs::default();
+    let packed = |place: u32| (place as usize) < pieces.len();
+    let tree = WideTree::from_binary(&binary, packed, |places| match places {
+        &[place] if !packed(place) => TRIANGLE | (place - pieces.len() as u32),
+        places => packs.push(places.iter().filter_map(|&place| pieces.get(place as usize))),
+    });
+    packs.finish();
+    Built { tree, packs, bounds }
+}
+
+/// The box round everything; two zeros where there is nothing.
+fn bounds(whole: &[Piece], meshes: &Meshes) -> (Vec3, Vec3) {
+    let segments = whole.iter().map(|piece| bounds::of_segment(piece.a, piece.b));
+    let all = segments.chain(meshes.all().iter().map(bounds::of_triangle)).reduce(|a, b| a.union(&b));
+    all.map_or((Vec3::ZERO, Vec3::ZERO), |b| (b.min.into(), b.max.into()))
+}
+
+/// All segments that can be hit.
+fn whole(fibres: &Fibres) -> Vec<Piece> {
+    fibres.solid().filter_map(|number| fibres.ends(number).map(|(a, b)| Piece { number, a, b })).collect()
 }
 
 /// `obvhs`'s own helper would do, but it checks every tree it makes in debug builds, which takes longer

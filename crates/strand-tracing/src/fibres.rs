@@ -169,12 +169,12 @@ impl Fibres {
         (segment < end).then_some(Departure { strand: first..end, segment })
     }
 
-    /// How far along the line the fibre left is still around the ray: the end of the unbroken stretch
-    /// inside the strand that starts at its origin. Entries before it are joints passed from within.
+    /// Whether the fibre left is still around the ray at `t`: whether that is within the unbroken stretch
+    /// inside the strand that starts at the ray's origin. Entries in there are joints passed from within.
     ///
     /// The strand is taken wider by the rounding of the origin and of its points, or a ray that grazes a
     /// straight strand would come out of one segment and into the next.
-    pub(crate) fn way_out(&self, departure: &Departure, line: &Line) -> f64 {
+    pub(crate) fn still_inside(&self, departure: &Departure, line: &Line, t: f64) -> bool {
         let span = |number| {
             let (a, b) = self.ends(number)?;
             let size = a.xyz().abs().max(b.xyz().abs()).max_element();
@@ -183,12 +183,15 @@ impl Fibres {
         };
         let mut out = span(departure.segment).map_or(0.0, |(_, exit)| exit.max(0.0));
         loop {
+            if t <= out {
+                return true;
+            }
             let before = out;
             for forward in [true, false] {
                 out = self.extended(departure, line, out, forward, span);
             }
             if out <= before {
-                return out;
+                return false;
             }
         }
     }

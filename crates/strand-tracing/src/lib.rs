@@ -10,7 +10,8 @@
 //! Fibres scatter in the near field: light comes out where it went in, so a scattered ray may start at the
 //! hit point and run through the fibre itself. Pass the primitive it leaves as `leaving`: the ray does not
 //! see that segment, nor any part of the same strand before it has come out of it. No ray is offset and
-//! there is no epsilon in world units; a curl that comes back to itself is hit.
+//! there is no epsilon in world units; a curl that comes back to itself is hit. A triangle left is not hit
+//! again, nor is its neighbour where only the rounding of the origin puts the ray behind it.
 //!
 //! ```
 //! use glam::{Vec3, vec3};
@@ -39,6 +40,8 @@ mod hit;
 mod input;
 mod line;
 mod meshes;
+mod pack;
+mod pieces;
 mod tracer;
 mod triangle;
 mod wide_tree;

@@ -4,12 +4,13 @@ use std::time::Instant;
 
 use glam::{DVec3, Vec3};
 
-use crate::build::{self, TRIANGLE};
+use crate::build::{self, Built, TRIANGLE};
 use crate::fibres::{Departure, Fibres};
 use crate::line::Line;
 use crate::meshes::Meshes;
+use crate::pack::{NOTHING, Sight};
 use crate::triangle::{self, Shear};
-use crate::wide_tree::{WideTree, reach};
+use crate::wide_tree::reach;
 use crate::{BuildOptions, Hit, HitKind, Primitive, Ray, Strands, TracingError, Triangles};
 
 /// Geometry ready to be traced. Shared between threads; a query changes nothing.
@@ -17,8 +18,7 @@ use crate::{BuildOptions, Hit, HitKind, Primitive, Ray, Strands, TracingError, T
 pub struct Tracer {
     fibres: Fibres,
     meshes: Meshes,
-    tree: WideTree,
-    bounds: (Vec3, Vec3),
+    built: Built,
     statistics: Statistics,
 }
 
@@ -51,15 +51,15 @@ impl Tracer {
         build::check_counts(strands, triangles)?;
         let fibres = Fibres::gather(strands)?;
         let meshes = Meshes::gather(triangles)?;
-        let (tree, bounds) = build::tree(&fibres, &meshes, options);
+        let built = build::tree(&fibres, &meshes, options);
         let statistics = Statistics {
             segments: fibres.solid().count(),
             triangles: meshes.all().len(),
-            nodes: tree.node_count(),
-            bytes: fibres.bytes() + meshes.bytes() + tree.bytes(),
+            nodes: built.tree.node_count(),
+            bytes: fibres.bytes() + meshes.bytes() + built.tree.bytes() + built.packs.bytes(),
             build_seconds: start.elapsed().as_secs_f64(),
         };
-        Ok(Self { fibres, meshes, tree, bounds, statistics })
+        Ok(Self { fibres, meshes, built, statistics })
     }
 
     /// The first hit with `0 < t <= ray.t_max`, not counting what the ray leaves: pass the primitive of the
@@ -71,16 +71,19 @@ impl Tracer {
     pub fn closest(&self, ray: &Ray, leaving: Option<Primitive>) -> Option<Hit> {
         let query = Query::new(self, ray, leaving);
         let mut far = reach(f64::from(ray.t_max));
+        let mut within = f64::from(ray.t_max);
         let mut best: Option<(f64, u32)> = None;
-        self.tree.walk::<true>(ray, &mut far, |leaf, far| {
-            let within = best.map_or(f64::from(ray.t_max), |(t, _)| t);
-            if let Some(t) = query.hit(leaf, within)
-                && best.is_none_or(|(nearest, first)| t < nearest || leaf < first)
-            {
-                best = Some((t, leaf));
-                *far = reach(t);
-            }
-            false
+        self.built.tree.walk::<true>(ray, &mut far, |leaf, far| {
+            query.each(leaf, |leaf| {
+                if let Some(t) = query.hit(leaf, within)
+                    && best.is_none_or(|(nearest, first)| t < nearest || leaf < first)
+                {
+                    best = Some((t, leaf));
+                    within = t;
+                    *far = reach(t);
+                }
+                false
+            })
         });
         best.and_then(|(t, leaf)| query.describe(leaf, t, ray.t_max))
     }
@@ -91,9 +94,11 @@ impl Tracer {
         let query = Query::new(self, ray, leaving);
         let mut found = false;
         let within = f64::from(ray.t_max);
-        self.tree.walk::<false>(ray, &mut reach(within), |leaf, _| {
-            found = query.hit(leaf, within).is_some();
-            found
+        self.built.tree.walk::<false>(ray, &mut reach(within), |leaf, _| {
+            query.each(leaf, |leaf| {
+                found = query.hit(leaf, within).is_some();
+                found
+            })
         });
         found
     }
@@ -101,7 +106,7 @@ impl Tracer {
     /// Least and greatest corner of everything that can be hit; two zeros for an empty tracer.
     #[must_use]
     pub fn bounds(&self) -> (Vec3, Vec3) {
-        self.bounds
+        self.built.bounds
     }
 
     /// What the tracer holds.
@@ -122,6 +127,7 @@ enum Left {
 struct Query<'a> {
     tracer: &'a Tracer,
     line: Line,
+    sight: Sight,
     left: Left,
 }
 
@@ -137,10 +143,29 @@ impl<'a> Query<'a> {
                 tracer.meshes.number(object, triangle).map(|n| Left::Triangle(TRIANGLE | n))
             }
         };
-        Self { tracer, line: Line::of(ray), left: left.unwrap_or(Left::Nothing) }
+        let sight = Sight::new(ray, tracer.built.packs.bounds());
+        Self { tracer, line: Line::of(ray), sight, left: left.unwrap_or(Left::Nothing) }
     }
 
-    /// Where the ray hits a leaf, if that is at `within` or before.
+    /// Calls `visit` for what a leaf of the tree holds and the ray may hit, until it returns true.
+    #[inline(always)]
+    fn each(&self, leaf: u32, mut visit: impl FnMut(u32) -> bool) -> bool {
+        if leaf & TRIANGLE != 0 {
+            return visit(leaf);
+        }
+        let Some(pack) = self.tracer.built.packs.get(leaf) else { return false };
+        let mut near = self.sight.near(pack);
+        while near != 0 {
+            let number = pack.number(near.trailing_zeros() as usize);
+            near &= near - 1;
+            if number != NOTHING && visit(number) {
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Where the ray hits a primitive, if that is at `within` or before.
     #[inline]
     fn hit(&self, leaf: u32, within: f64) -> Option<f64> {
         if leaf & TRIANGLE == 0 { self.fibre_hit(leaf, within) } else { self.triangle_hit(leaf, within) }
@@ -158,7 +183,7 @@ impl<'a> Query<'a> {
         let t = cone.entry(&self.line).map(|entry| entry.t).filter(|&t| t > 0.0 && t <= within)?;
         let inside = match &self.left {
             Left::Fibre(departure) if departure.is_strand_of(number) => {
-                t <= fibres.way_out(departure, &self.line)
+                fibres.still_inside(departure, &self.line, t)
             }
             _ => fibres.is_inner(number, &cone, self.line.at(t)),
         };
@@ -172,8 +197,15 @@ impl<'a> Query<'a> {
             return None;
         }
         let vertices = self.tracer.meshes.all().get((leaf & !TRIANGLE) as usize)?;
-        let crossing = Shear::new(&self.line).cross(&self.line, vertices)?;
-        (crossing.t > 0.0 && crossing.t <= within).then_some(crossing.t)
+        let t = Shear::new(&self.line).cross(&self.line, vertices)?.t;
+        (t > 0.0 && t <= within && !self.is_seam(vertices, t)).then_some(t)
+    }
+
+    /// Whether a crossing is the seam between the triangle left and a neighbour.
+    fn is_seam(&self, vertices: &[Vec3; 3], t: f64) -> bool {
+        let Left::Triangle(left) = self.left else { return false };
+        let left = self.tracer.meshes.all().get((left & !TRIANGLE) as usize);
+        left.is_some_and(|left| triangle::is_seam(&self.line, left, vertices, t))
     }
 
     fn describe(&self, leaf: u32, t: f64, t_max: f32) -> Option<Hit> {

@@ -72,3 +72,19 @@ pub(crate) fn point(vertices: &[Vec3; 3], weights: [f64; 2]) -> Vec3 {
     let [a, b, c] = vertices.map(|v| v.as_dvec3());
     (a + (b - a) * weights[0] + (c - a) * weights[1]).as_vec3()
 }
+
+/// Whether a ray that leaves the triangle `left` meets the triangle `met` at `t` for no reason but rounding:
+/// they share a vertex, and in single precision the ray starts on the one or meets the other where it still
+/// lies in the first.
+pub(crate) fn is_seam(line: &Line, left: &[Vec3; 3], met: &[Vec3; 3], t: f64) -> bool {
+    if !met.iter().any(|vertex| left.contains(vertex)) {
+        return false;
+    }
+    let size = left.iter().chain(met).fold(0.0, |size: f32, v| size.max(v.abs().max_element()));
+    let rounding = 2.0 * f64::from(f32::EPSILON) * f64::from(size);
+    let within = |triangle: &[Vec3; 3], point: DVec3| {
+        let [a, b, c] = triangle.map(|v| v.as_dvec3());
+        (b - a).cross(c - a).normalize_or_zero().dot(point - a).abs() <= rounding
+    };
+    within(met, line.origin) || within(left, line.at(t))
+}

@@ -1,13 +1,14 @@
 //! A four-wide tree made from `obvhs`'s binary one, and the walk through it.
 //!
-//! Four boxes fill one SSE register per plane, the children's planes lie in two cache lines, and every
-//! leaf is a single primitive with a box of its own, so a segment costs a quarter of a box test before it
-//! costs an intersection.
+//! Four boxes fill one SSE register per plane and a node two cache lines. A leaf is a single triangle or a
+//! pack of segments, which are tested together: their own boxes are never looked at.
 
 use glam::{Vec3, Vec4};
+use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 
 use crate::Ray;
+use crate::pack::PACKED;
 
 const WIDTH: usize = 4;
 /// Child references: the top bit marks a leaf, the rest numbers it.
@@ -28,6 +29,14 @@ struct Node {
 
 impl Node {
     const NONE: Self = Self { planes: [[Vec4::INFINITY, Vec4::NEG_INFINITY]; 3], children: [EMPTY; WIDTH] };
+
+    fn set(&mut self, lane: usize, child: u32, around: &Aabb) {
+        self.children[lane] = child;
+        for (axis, planes) in self.planes.iter_mut().enumerate() {
+            planes[0][lane] = around.min[axis];
+            planes[1][lane] = around.max[axis];
+        }
+    }
 }
 
 /// A distance no box entered at `t` or before can seem beyond, for [`WideTree::walk`]'s `far`.
@@ -81,39 +90,40 @@ impl Slabs {
 }
 
 impl WideTree {
-    /// Gathers the binary nodes by fours, the largest box opened first. `leaf` gives the number kept for
-    /// one of the boxes the binary tree was built over.
-    pub(crate) fn from_binary(binary: &Bvh2, leaf: impl Fn(usize) -> u32) -> Self {
+    /// Gathers the binary nodes by fours, the largest box opened first. A box is told by its place among
+    /// those the binary tree was built over: `packs` says whether it may share a leaf, which up to `PACKED`
+    /// boxes do, and `leaf` gives the number kept for the boxes of one leaf.
+    pub(crate) fn from_binary(
+        binary: &Bvh2,
+        packs: impl Fn(u32) -> bool,
+        mut leaf: impl FnMut(&[u32]) -> u32,
+    ) -> Self {
         let mut tree = Self::default();
         if binary.nodes.is_empty() {
             return tree;
         }
+        let sizes = sizes(binary, packs);
+        let mut places = Vec::with_capacity(PACKED);
         tree.nodes.push(Node::NONE);
         let mut open = vec![(0_u32, 0_usize, 1_usize)];
         let mut depth = 1;
         while let Some((source, target, level)) = open.pop() {
             depth = depth.max(level);
-            let members = gather(binary, source);
-            let mut inner = [None; WIDTH];
-            for (lane, &member) in members.iter().enumerate() {
+            for (lane, &member) in gather(binary, &sizes, source).iter().enumerate() {
                 let Some(from) = binary.nodes.get(member as usize) else { continue };
-                let (low, high) = (from.aabb().min, from.aabb().max);
-                let child = if from.is_leaf() {
-                    LEAF | leaf(binary.primitive_indices[from.first_index as usize] as usize)
+                let child = if is_leaf(&sizes, member) {
+                    places.clear();
+                    collect(binary, member, &mut places);
+                    LEAF | leaf(&places)
                 } else {
-                    inner[lane] = Some((member, tree.nodes.len(), level + 1));
+                    open.push((member, tree.nodes.len(), level + 1));
                     tree.nodes.push(Node::NONE);
                     (tree.nodes.len() - 1) as u32
                 };
-                let node = &mut tree.nodes[target];
-                node.children[lane] = child;
-                for axis in 0..3 {
-                    node.planes[axis][0][lane] = low[axis];
-                    node.planes[axis][1][lane] = high[axis];
-                }
+                tree.nodes[target].set(lane, child, from.aabb());
             }
-            open.extend(inner.into_iter().flatten());
         }
+        tree.nodes.shrink_to_fit();
         tree.stack_needed = depth * (WIDTH - 1) + 1;
         tree
     }
@@ -127,7 +137,7 @@ impl WideTree {
     }
 
     /// Calls `visit(leaf, far)` for every leaf whose box is crossed at `far` or before, nearest boxes first
-    /// where `ORDERED`. `visit` may bring `far` nearer; it ends the walk by returning true.
+    /// where `ORDERED`, otherwise leaves as soon as they are found. `visit` may bring `far` nearer; it ends the walk by returning true.
     #[inline(always)]
     pub(crate) fn walk<const ORDERED: bool>(
         &self,
@@ -158,9 +168,28 @@ impl WideTree {
                 let (near, mut mask) = slabs.cross(node, *far);
                 let near = near.to_array();
                 let bottom = top;
+                if mask.is_power_of_two() {
+                    // The only way on needs no stack.
+                    let child = node.children[mask.trailing_zeros() as usize & 3];
+                    if child & LEAF == 0 {
+                        current = child;
+                        continue;
+                    }
+                    if visit(child & !LEAF, far) {
+                        return;
+                    }
+                    mask = 0;
+                }
                 while mask != 0 {
                     let lane = mask.trailing_zeros() as usize & 3;
                     mask &= mask - 1;
+                    let child = node.children[lane];
+                    if !ORDERED && child & LEAF != 0 {
+                        if visit(child & !LEAF, far) {
+                            return;
+                        }
+                        continue;
+                    }
                     let mut place = top;
                     if ORDERED {
                         while place > bottom && stack[place - 1].1 < near[lane] {
@@ -168,7 +197,7 @@ impl WideTree {
                             place -= 1;
                         }
                     }
-                    stack[place] = (node.children[lane], near[lane]);
+                    stack[place] = (child, near[lane]);
                     top += 1;
                 }
             }
@@ -193,15 +222,55 @@ impl WideTree {
     }
 }
 
+/// How many boxes every binary node holds if they fit one leaf, more than `PACKED` where they do not.
+fn sizes(binary: &Bvh2, packs: impl Fn(u32) -> bool) -> Vec<u8> {
+    const MORE: u8 = PACKED as u8 + 1;
+    let mut sizes = vec![MORE; binary.nodes.len()];
+    let mut open = vec![(0_u32, false)];
+    while let Some((number, below_known)) = open.pop() {
+        let Some(node) = binary.nodes.get(number as usize) else { continue };
+        let first = node.first_index;
+        sizes[number as usize] = if node.is_leaf() {
+            let alone = !packs(binary.primitive_indices[first as usize]);
+            if alone { 0 } else { 1 }
+        } else if below_known {
+            match [sizes[first as usize], sizes[first as usize + 1]] {
+                [0, _] | [_, 0] => MORE,
+                [a, b] => (a + b).min(MORE),
+            }
+        } else {
+            open.extend([(number, true), (first, false), (first + 1, false)]);
+            MORE
+        };
+    }
+    sizes
+}
+
+/// Whether a binary node is one leaf here.
+fn is_leaf(sizes: &[u8], number: u32) -> bool {
+    sizes.get(number as usize).is_none_or(|&size| usize::from(size) <= PACKED)
+}
+
+/// The places of all boxes below a binary node.
+fn collect(binary: &Bvh2, number: u32, places: &mut Vec<u32>) {
+    let Some(node) = binary.nodes.get(number as usize) else { return };
+    if node.is_leaf() {
+        places.push(binary.primitive_indices[node.first_index as usize]);
+    } else {
+        collect(binary, node.first_index, places);
+        collect(binary, node.first_index + 1, places);
+    }
+}
+
 /// Up to four descendants of a binary node that together hold all it holds.
-fn gather(binary: &Bvh2, source: u32) -> Vec<u32> {
+fn gather(binary: &Bvh2, sizes: &[u8], source: u32) -> Vec<u32> {
     let mut members = vec![source];
     while members.len() < WIDTH {
         let largest = members
             .iter()
             .enumerate()
+            .filter(|&(_, &m)| !is_leaf(sizes, m))
             .filter_map(|(place, &m)| binary.nodes.get(m as usize).map(|n| (place, n)))
-            .filter(|(_, n)| !n.is_leaf())
             .max_by(|(_, a), (_, b)| a.aabb().half_area().total_cmp(&b.aabb().half_area()));
         let Some((place, node)) = largest else { break };
         members[place] = node.first_index;

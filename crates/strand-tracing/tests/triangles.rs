@@ -154,3 +154,58 @@ fn hair_and_skin_are_traced_together() {
     assert_eq!(tracer.closest(&down(0.5), None).unwrap().primitive, skin.primitive);
     assert_eq!((tracer.statistics().segments, tracer.statistics().triangles), (1, 1));
 }
+
+/// Nothing leaves a convex body outwards to meet it again, unless it stays within rounding of the surface
+/// for longer than a triangle; and through the body there is always a far side.
+#[test]
+fn rays_that_leave_near_edges_do_not_meet_the_neighbours() {
+    let mut random = Random(9);
+    for (scale, centre, flattest) in
+        [(1.0, Vec3::ZERO, -5.0), (1e-3, Vec3::ONE, -2.0), (50.0, vec3(1e4, -1e4, 3e3), -2.0)]
+    {
+        let (positions, indices) = sphere(24, scale, centre);
+        let tracer = tracer(&positions, &indices);
+        for triangle in &indices {
+            let corners = triangle.map(|i| positions[i as usize]);
+            for edge in 0..3 {
+                for share in [0.0, 0.1, 0.5, 0.77] {
+                    let target = corners[edge].lerp(corners[(edge + 1) % 3], share);
+                    let origin = centre + (target - centre) * 3.0;
+                    let direction = (target - origin).normalize();
+                    let Some(hit) = tracer.closest(&Ray { origin, direction, t_max: 1e9 }, None) else {
+                        continue;
+                    };
+                    let HitKind::Triangle { normal, .. } = hit.kind else { panic!() };
+                    let out = normal * (hit.position - centre).dot(normal).signum();
+                    for _ in 0..8 {
+                        let along = random.direction().cross(out).normalize_or(Vec3::X);
+                        let slope = 10.0_f32.powf(flattest * random.next());
+                        let leave = |side: f32| Ray {
+                            origin: hit.position,
+                            direction: (along + out * (slope * side)).normalize(),
+                            t_max: f32::INFINITY,
+                        };
+                        let again = tracer.closest(&leave(1.0), Some(hit.primitive));
+                        assert_eq!(again, None, "slope {slope} from {hit:?}");
+                        assert!(!tracer.occluded(&leave(1.0), Some(hit.primitive)));
+                    }
+                    let inwards = Ray { origin: hit.position, direction: -out, t_max: f32::INFINITY };
+                    assert!(tracer.occluded(&inwards, Some(hit.primitive)));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn a_neighbour_in_the_way_is_met() {
+    // A floor and a wall on its edge.
+    let corners = [Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+    let tracer = tracer(&corners, &[[0, 1, 2], [0, 2, 3]]);
+    for x in [0.3, 1e-3, 1e-5] {
+        let origin = vec3(x, 0.3, 0.0);
+        let ray = Ray { origin, direction: vec3(-1.0, 0.0, 0.5).normalize(), t_max: f32::INFINITY };
+        let hit = tracer.closest(&ray, Some(Primitive::Triangle { object: 0, triangle: 0 })).unwrap();
+        assert_eq!(hit.primitive, Primitive::Triangle { object: 0, triangle: 1 });
+    }
+}
