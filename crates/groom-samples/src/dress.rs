@@ -10,7 +10,7 @@ const LEAST_RADIUS: f32 = 35e-6;
 pub(crate) fn radius(groom: &mut Groom, strands: u32, length: f32) -> Result<(), GroomError> {
     // Hair of this many square metres, laid flat, hides a head of a tenth of a square metre.
     let root = (0.30 / (strands as f32 * length)).clamp(LEAST_RADIUS, 0.002);
-    let values = groom.along_strands().into_iter().map(|t| root * (1.0 - 0.7 * t * t)).collect();
+    let values = groom.along_strands().into_iter().map(|t| root * (1.0 - 0.6 * t.powi(4))).collect();
     groom.set_attribute(names::RADIUS, Attribute { domain: Domain::Vertex, values: Values::Float(values) })
 }
 

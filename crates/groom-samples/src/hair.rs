@@ -9,6 +9,8 @@ use crate::{Options, SampleError, Style, dress, grow, head};
 /// What makes a style, in metres.
 struct Shape {
     length: f32,
+    /// Where the scissors go: hair that falls below this height ends there.
+    cut: f32,
     /// How many locks strands gather in; 0 for hair that falls freely.
     locks: u32,
     /// How much of the way a tip moves to its lock's middle.
@@ -22,15 +24,33 @@ struct Shape {
 
 fn shape(style: Style) -> Shape {
     match style {
-        Style::Straight => {
-            Shape { length: 0.30, locks: 420, gathering: 0.35, reach: 0.0, pitch: 1.0, winding: 0.0 }
-        }
-        Style::Wavy => {
-            Shape { length: 0.27, locks: 170, gathering: 0.6, reach: 0.0065, pitch: 0.062, winding: 0.25 }
-        }
-        Style::Curly => {
-            Shape { length: 0.25, locks: 190, gathering: 0.75, reach: 0.011, pitch: 0.060, winding: 1.0 }
-        }
+        Style::Straight => Shape {
+            length: 0.34,
+            cut: -0.165,
+            locks: 420,
+            gathering: 0.35,
+            reach: 0.0,
+            pitch: 1.0,
+            winding: 0.0,
+        },
+        Style::Wavy => Shape {
+            length: 0.36,
+            cut: -0.175,
+            locks: 170,
+            gathering: 0.6,
+            reach: 0.0065,
+            pitch: 0.062,
+            winding: 0.25,
+        },
+        Style::Curly => Shape {
+            length: 0.27,
+            cut: -0.16,
+            locks: 190,
+            gathering: 0.75,
+            reach: 0.011,
+            pitch: 0.060,
+            winding: 1.0,
+        },
     }
 }
 
@@ -97,6 +117,10 @@ fn strand(options: &Options, shape: &Shape, locks: &[Lock], id: u32, root: Vec3)
             );
         }
     }
+    // Blunt, but not as if by a laser.
+    let cut = shape.cut - 0.012 * random(options.seed, id, "cut");
+    let kept = points.iter().position(|p| p.y < cut).map_or(points.len(), |below| below.max(2));
+    points.truncate(kept);
     points
 }
 
