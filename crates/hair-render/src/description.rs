@@ -67,10 +67,11 @@ pub struct HairObject {
     pub material: HairMaterial,
 }
 
-/// A matte mesh: both sides reflect by Lambert's law.
+/// A matte mesh: both sides reflect by Lambert's law, smoothly where the mesh has normals, as flat
+/// triangles where it has none.
 #[derive(Clone, Debug)]
 pub struct MeshObject {
-    /// The triangles, in the mesh's own unit and axes.
+    /// The triangles, in world metres, Y up.
     pub mesh: TriangleMesh,
     /// Reflected share of the light, linear Rec. 709, 0..1.
     pub albedo: Vec3,

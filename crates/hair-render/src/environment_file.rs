@@ -2,6 +2,7 @@
 
 use std::fs::File;
 use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
 use exr::prelude as openexr;
@@ -9,23 +10,42 @@ use glam::Vec3;
 
 use crate::{Environment, RenderError};
 
-/// Pictures above this many pixels are refused before anything is allocated for them (4 GiB of colours).
+/// Pictures above this many pixels are refused before anything is allocated for them (3 GiB of colours).
 const MOST_PIXELS: u64 = 1 << 28;
+
+/// Pixels that a byte of a run-length coded .hdr file can stand for: 2 bytes repeat one of 4 channels
+/// 127 times.
+const HDR_PIXELS_A_BYTE: u64 = 16;
+
+/// The same of an .exr file: no coder in use makes more than a thousand bytes of one.
+const EXR_PIXELS_A_BYTE: u64 = 1024;
+
+/// A picture file that is being read.
+struct Source<'a> {
+    path: &'a Path,
+    file: BufReader<File>,
+    bytes: u64,
+}
 
 pub(crate) fn read(path: &Path) -> Result<Environment, RenderError> {
     let io = |source| RenderError::Io { path: path.to_owned(), source };
     let mut file = BufReader::new(File::open(path).map_err(io)?);
+    let bytes = file.get_ref().metadata().map_err(io)?.len();
     let mut magic = Vec::new();
     file.by_ref().take(10).read_to_end(&mut magic).map_err(io)?;
     file.seek(SeekFrom::Start(0)).map_err(io)?;
-    if magic.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
-        read_exr(path, file)
+    let source = Source { path, file, bytes };
+    let decode = if magic.starts_with(&[0x76, 0x2f, 0x31, 0x01]) {
+        read_exr
     } else if magic.starts_with(b"#?") {
-        read_hdr(path, file)
+        read_hdr
     } else {
         let reason = "expected a Radiance .hdr or an OpenEXR file".into();
-        Err(RenderError::UnsupportedPicture { path: path.to_owned(), reason })
-    }
+        return Err(RenderError::UnsupportedPicture { path: path.to_owned(), reason });
+    };
+    // The decoders are other people's: one that panics on a broken file must not end the program.
+    catch_unwind(AssertUnwindSafe(|| decode(source)))
+        .unwrap_or_else(|_| Err(invalid(path, "its decoder gave up on it")))
 }
 
 fn invalid(path: &Path, reason: impl ToString) -> RenderError {
@@ -36,39 +56,42 @@ fn finish(path: &Path, width: usize, height: usize, pixels: Vec<Vec3>) -> Result
     Environment::from_pixels(width, height, pixels).map_err(|fault| invalid(path, fault))
 }
 
-fn check_size(path: &Path, width: u64, height: u64) -> Result<(), RenderError> {
+/// Refuses a size that is out of bounds, or that a file of `bytes` cannot hold.
+fn check_size([width, height]: [u64; 2], bytes: u64, pixels_a_byte: u64) -> Result<(), String> {
+    let most = MOST_PIXELS.min(bytes.saturating_mul(pixels_a_byte));
     match width.checked_mul(height) {
-        Some(pixels) if (1..=MOST_PIXELS).contains(&pixels) => Ok(()),
-        _ => Err(invalid(path, format!("{width} x {height} pixels, expected 1 to {MOST_PIXELS} in all"))),
+        Some(pixels) if (1..=most).contains(&pixels) => Ok(()),
+        _ => {
+            Err(format!("{width} x {height} pixels, expected 1 to {most} in all in a file of {bytes} bytes"))
+        }
     }
 }
 
-fn read_hdr(path: &Path, file: BufReader<File>) -> Result<Environment, RenderError> {
+fn read_hdr(Source { path, file, bytes }: Source) -> Result<Environment, RenderError> {
     use image::ImageDecoder;
     let decoder = image::codecs::hdr::HdrDecoder::new(file).map_err(|fault| invalid(path, fault))?;
     let (width, height) = decoder.dimensions();
-    check_size(path, width.into(), height.into())?;
+    check_size([width.into(), height.into()], bytes, HDR_PIXELS_A_BYTE).map_err(|e| invalid(path, e))?;
     let picture = image::DynamicImage::from_decoder(decoder).map_err(|fault| invalid(path, fault))?;
     let pixels = picture.into_rgb32f().pixels().map(|p| Vec3::from_array(p.0)).collect();
     finish(path, width as usize, height as usize, pixels)
 }
 
-fn read_exr(path: &Path, file: BufReader<File>) -> Result<Environment, RenderError> {
+fn read_exr(Source { path, file, bytes }: Source) -> Result<Environment, RenderError> {
     use openexr::{ReadChannels, ReadLayers};
     struct Pixels {
         width: usize,
         height: usize,
         values: Vec<Vec3>,
     }
-    let fits =
-        |size: openexr::Vec2<usize>| check_size(path, size.width() as u64, size.height() as u64).is_ok();
+    let check = |width, height| check_size([width as u64, height as u64], bytes, EXR_PIXELS_A_BYTE);
     let read = openexr::read()
         .no_deep_data()
         .largest_resolution_level()
         .rgb_channels(
             |size: openexr::Vec2<usize>, _: &openexr::RgbChannels| {
                 // Nothing can be returned here: a size too large stays empty and is refused below.
-                let count = if fits(size) { size.area() } else { 0 };
+                let count = if check(size.width(), size.height()).is_ok() { size.area() } else { 0 };
                 Pixels { width: size.width(), height: size.height(), values: vec![Vec3::ZERO; count] }
             },
             |pixels: &mut Pixels, at, (r, g, b): (f32, f32, f32)| {
@@ -78,7 +101,9 @@ fn read_exr(path: &Path, file: BufReader<File>) -> Result<Environment, RenderErr
             },
         )
         .first_valid_layer()
-        .all_attributes();
+        .all_attributes()
+        // A panic in one of its own threads could not be caught.
+        .non_parallel();
     let fault = |fault: exr::error::Error| match fault {
         exr::error::Error::NotSupported(reason) => {
             RenderError::UnsupportedPicture { path: path.to_owned(), reason: reason.to_string() }
@@ -87,6 +112,6 @@ fn read_exr(path: &Path, file: BufReader<File>) -> Result<Environment, RenderErr
         other => invalid(path, other),
     };
     let pixels = read.from_buffered(file).map_err(fault)?.layer_data.channel_data.pixels;
-    check_size(path, pixels.width as u64, pixels.height as u64)?;
+    check(pixels.width, pixels.height).map_err(|e| invalid(path, e))?;
     finish(path, pixels.width, pixels.height, pixels.values)
 }

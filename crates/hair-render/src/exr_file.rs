@@ -65,15 +65,13 @@ impl Frame {
     fn attributes(&self, metadata: &Metadata) -> openexr::LayerAttributes {
         let report = &self.report;
         let mut attributes = openexr::LayerAttributes {
-            software_name: text(concat!("groomkit hair-render ", env!("CARGO_PKG_VERSION"))),
+            software_name: Some(text(concat!("groomkit hair-render ", env!("CARGO_PKG_VERSION")))),
             // OpenEXR multiplies row vectors: its rows are our columns.
             world_to_camera: metadata.camera.map(|c| c.camera_from_world().as_mat4().to_cols_array()),
             ..openexr::LayerAttributes::default()
         };
         let mut put = |key: &str, value: AttributeValue| {
-            if let Some(key) = text(key) {
-                attributes.other.insert(key, value);
-            }
+            attributes.other.insert(text(key), value);
         };
         let strings = [
             ("command", metadata.command.clone()),
@@ -83,9 +81,7 @@ impl Frame {
         ];
         let extra = metadata.extra.iter().map(|(key, value)| (key.as_str(), value.clone()));
         for (key, value) in strings.into_iter().chain(extra).filter(|(key, _)| !key.is_empty()) {
-            if let Some(value) = text(&value) {
-                put(key, AttributeValue::Text(value));
-            }
+            put(key, AttributeValue::Text(text(&value)));
         }
         put("spp", AttributeValue::I32(i32::try_from(report.spp).unwrap_or(i32::MAX)));
         put("threads", AttributeValue::I32(i32::try_from(report.threads).unwrap_or(i32::MAX)));
@@ -117,9 +113,10 @@ fn encoding() -> openexr::Encoding {
     }
 }
 
-/// Latin-1 text, as OpenEXR has it; `None` for what cannot be said in it.
-fn text(words: &str) -> Option<openexr::Text> {
-    openexr::Text::new_or_none(words)
+/// Text in UTF-8, as OpenEXR and its Python module read it; the `exr` crate's own way is Latin-1, which
+/// has no words for most of the world's file names.
+fn text(words: &str) -> openexr::Text {
+    openexr::Text::from_slice_unchecked(words.as_bytes())
 }
 
 fn samples(values: impl Iterator<Item = f32>, precision: Precision) -> FlatSamples {

@@ -121,7 +121,8 @@ impl<'a> PathTracer<'a> {
             if depth == 0 {
                 kind = vertex.kind();
             }
-            let [pick, u, v, survive] = sampler.four(light_set);
+            // The first two dimensions are the best spread ones: places on a light get them.
+            let [u, v, pick, survive] = sampler.four(light_set);
             let start = vertex.start(&hit);
             if self.next_event {
                 let found = self.next_event(&vertex, start, hit.primitive, [pick, u, v], sampler, pass_set);
@@ -168,11 +169,11 @@ impl<'a> PathTracer<'a> {
                 let material = self.scene.fibres[object as usize].material(hit);
                 Vertex::Fibre(Box::new(FibreHit::new(&material, tangent, h, toward)))
             }
-            (HitKind::Triangle { normal, .. }, Primitive::Triangle { object, .. }) => {
-                Vertex::Surface(SurfaceHit::new(self.scene.albedos[object as usize], normal, toward))
+            (_, Primitive::Triangle { object, .. }) => {
+                Vertex::Surface(self.scene.surfaces[object as usize].at(hit, toward))
             }
             // A hit of one kind on a primitive of the other does not exist; it would be black.
-            (_, _) => Vertex::Surface(SurfaceHit::new(Vec3::ZERO, toward, toward)),
+            (_, _) => Vertex::Surface(SurfaceHit::black(toward)),
         }
     }
 
@@ -325,7 +326,7 @@ impl Vertex {
             Vertex::Fibre(_) => hit.position,
             Vertex::Surface(surface) => {
                 let size = hit.position.abs().max_element().max(1e-6);
-                hit.position + surface.normal() * (size * 4.0 * f32::EPSILON)
+                hit.position + surface.flat_normal() * (size * 4.0 * f32::EPSILON)
             }
         }
     }

@@ -6,6 +6,7 @@ use strand_tracing::{BuildOptions, Radii, Strands, Tracer, Triangles};
 
 use crate::fibres::Fibres;
 use crate::lights::Lights;
+use crate::surface::Surface;
 use crate::{Bounds, HairObject, MeshObject, RenderError, SceneDescription};
 
 /// A scene ready to be rendered, any number of times and from any number of threads.
@@ -13,7 +14,7 @@ use crate::{Bounds, HairObject, MeshObject, RenderError, SceneDescription};
 pub struct Scene {
     pub(crate) tracer: Tracer,
     pub(crate) fibres: Vec<Fibres>,
-    pub(crate) albedos: Vec<Vec3>,
+    pub(crate) surfaces: Vec<Surface>,
     pub(crate) lights: Lights,
     bounds: Option<Bounds>,
     center: DVec3,
@@ -41,16 +42,10 @@ impl Scene {
             .enumerate()
             .map(|(index, object)| Fibres::new(index, &object.groom, &object.material))
             .collect();
-        let mut albedos = Vec::with_capacity(meshes.len());
-        for mesh in &meshes {
-            if !(mesh.albedo.min_element() >= 0.0 && mesh.albedo.max_element() <= 1.0) {
-                return Err(RenderError::argument("mesh albedo", mesh.albedo, "0..1"));
-            }
-            albedos.push(mesh.albedo);
-        }
+        let surfaces = meshes.iter().map(Surface::new).collect::<Result<_, _>>()?;
         let tracer = build_tracer(&hair, &meshes, center)?;
         let lights = Lights::new(environment, &lights, center);
-        Ok(Scene { tracer, fibres: fibres?, albedos, lights, bounds, center })
+        Ok(Scene { tracer, fibres: fibres?, surfaces, lights, bounds, center })
     }
 
     /// The box about all hair and meshes in world metres; `None` when there is nothing.

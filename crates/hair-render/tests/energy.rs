@@ -103,16 +103,6 @@ fn all_ways_of_finding_light_agree() {
     }
 }
 
-/// Mean radiance over eight seeds, and the standard error of that mean.
-fn spread(scene: &Scene, settings: &RenderSettings) -> (f64, f64) {
-    let means =
-        (0..8).map(|seed| mean(&shoot(scene, &front(scene), &RenderSettings { seed, ..settings.clone() })).x);
-    let means: Vec<f64> = means.collect();
-    let mean = means.iter().sum::<f64>() / 8.0;
-    let variance = means.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / 7.0;
-    (mean, (variance / 8.0).sqrt())
-}
-
 #[test]
 fn roulette_changes_no_mean_and_bounces_only_add() {
     let scene = scene(vec![hair(tuft(200, 0.03), blond())], Some(white()), vec![]);

@@ -1,13 +1,15 @@
 //! Rendering one picture and saying what it cost.
 
+use std::ffi::OsStr;
+use std::io::Write;
 use std::path::Path;
 
 use anyhow::{Context, Result};
 use command_line::{Bar, Outcome};
 use glam::{DVec3, Vec3};
 use hair_render::{
-    Backdrop, Background, Frame, Metadata, Precision, Progress, RenderError, RenderSettings, Scene,
-    ToneMapping, tone_map,
+    Backdrop, Background, Camera, Frame, Metadata, Precision, Progress, RenderError, RenderSettings, Scene,
+    ToneMapping, check_output, tone_map,
 };
 
 use crate::args::Args;
@@ -29,6 +31,7 @@ impl Progress for OnBar {
 
 /// Writes the studio environment.
 pub fn write_studio(path: &Path) -> Result<Outcome> {
+    check_output(path, "exr")?;
     hair_render::write_studio(path, scene::STUDIO_WIDTH)?;
     Ok(Outcome::Good)
 }
@@ -38,6 +41,8 @@ pub fn render(args: &Args) -> Result<Outcome> {
     let output = args.output.as_deref().context("no output given")?;
     let settings = settings(args);
     settings.check()?;
+    check_output(output, "exr")?;
+    args.png.as_deref().map_or(Ok(()), |png| check_output(png, "png"))?;
     let (mut description, words) = scene::describe(args)?;
     words.iter().for_each(|word| say(&format!("warning: {word}")));
     let target = args.view.look_at.map_or_else(|| middle(&description), |at| at.vector());
@@ -49,18 +54,28 @@ pub fn render(args: &Args) -> Result<Outcome> {
     }
     let scene = Scene::build(description)?;
     let camera = scene::camera(&args.view, &scene)?;
+    let Some(frame) = trace(&scene, &camera, &settings)? else { return Ok(Outcome::Interrupted) };
+    write(args, output, camera, &frame)?;
+    report(args, &frame, output)?;
+    Ok(Outcome::Good)
+}
+
+/// The frame; `None` when Ctrl-C stopped it.
+fn trace(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Option<Frame>> {
     command_line::on_interrupt_ask();
     let bar = OnBar(command_line::progress_bar(1, "rendering"));
-    let frame = match hair_render::render(&scene, &camera, &settings, &bar) {
-        Err(RenderError::Cancelled) => {
-            bar.0.finish();
-            return Ok(Outcome::Interrupted);
-        }
-        frame => frame?,
-    };
+    let result = hair_render::render(scene, camera, settings, &bar);
     bar.0.finish();
+    match result {
+        Err(RenderError::Cancelled) => Ok(None),
+        frame => Ok(Some(frame?)),
+    }
+}
+
+fn write(args: &Args, output: &Path, camera: Camera, frame: &Frame) -> Result<()> {
+    let words: Vec<String> = std::env::args_os().map(|word| quoted(&word)).collect();
     let metadata = Metadata {
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: words.join(" "),
         camera: Some(camera),
         precision: if args.quality.half { Precision::Half } else { Precision::Float },
         ..Metadata::default()
@@ -69,10 +84,20 @@ pub fn render(args: &Args) -> Result<Outcome> {
     if let Some(png) = &args.png {
         let backdrop = Backdrop::Solid(Vec3::splat(0.18));
         let mapping = ToneMapping { exposure: args.exposure, backdrop, ..ToneMapping::default() };
-        tone_map(&frame, &mapping).write_png(png)?;
+        tone_map(frame, &mapping).write_png(png)?;
     }
-    report(args, &frame, output)?;
-    Ok(Outcome::Good)
+    Ok(())
+}
+
+/// A word as a shell would have to be given it.
+fn quoted(word: &OsStr) -> String {
+    let word = word.to_string_lossy();
+    let plain = |c: char| c.is_alphanumeric() || "-_./,:=+@%".contains(c);
+    if !word.is_empty() && word.chars().all(plain) {
+        word.into_owned()
+    } else {
+        format!("'{}'", word.replace('\'', "'\\''"))
+    }
 }
 
 fn settings(args: &Args) -> RenderSettings {
@@ -107,15 +132,32 @@ fn report(args: &Args, frame: &Frame, output: &Path) -> Result<()> {
         say(&format!("warning: {} samples were not finite and count as black", report.rejected_samples));
     }
     if args.json {
-        let stdout = std::io::stdout().lock();
-        serde_json::to_writer_pretty(stdout, report)?;
+        let mut json = serde_json::to_string_pretty(report)?;
+        json.push('\n');
+        std::io::stdout().lock().write_all(json.as_bytes())?;
     }
     Ok(())
 }
 
 fn say(line: &str) {
-    #[allow(clippy::print_stderr)] // words of a program go to stderr
-    {
-        eprintln!("{line}");
+    // `eprintln!` would panic when nobody reads stderr any more.
+    let _ = writeln!(std::io::stderr(), "{line}");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_quoted_only_where_a_shell_needs_it() {
+        for (word, expected) in [
+            ("a/b-c.hair", "a/b-c.hair"),
+            ("", "''"),
+            ("my hair", "'my hair'"),
+            ("it's", r"'it'\''s'"),
+            ("髪.hair", "髪.hair"),
+        ] {
+            assert_eq!(quoted(OsStr::new(word)), expected);
+        }
     }
 }

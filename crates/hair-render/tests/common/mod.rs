@@ -71,3 +71,13 @@ pub fn rel_mse(frame: &Frame, reference: &Frame) -> f64 {
     };
     covered.iter().map(error).sum::<f64>() / covered.len() as f64
 }
+
+/// Mean radiance over eight seeds, and the standard error of that mean.
+pub fn spread(scene: &Scene, settings: &RenderSettings) -> (f64, f64) {
+    let means =
+        (0..8).map(|seed| mean(&shoot(scene, &front(scene), &RenderSettings { seed, ..settings.clone() })).x);
+    let means: Vec<f64> = means.collect();
+    let mean = means.iter().sum::<f64>() / 8.0;
+    let variance = means.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / 7.0;
+    (mean, (variance / 8.0).sqrt())
+}

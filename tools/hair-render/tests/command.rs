@@ -1,0 +1,92 @@
+//! The program as a shell meets it: exit codes, streams, and what it leaves on the disk.
+#![allow(clippy::unwrap_used)] // also the helpers are test code
+
+use std::io::{BufRead, BufReader};
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+fn sample(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples").join(name)
+}
+
+/// An empty folder of its own for each test.
+fn folder(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    let _ = std::fs::remove_dir_all(&folder);
+    std::fs::create_dir_all(&folder).unwrap();
+    folder
+}
+
+fn command(folder: &Path, arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_hair-render"));
+    command.current_dir(folder).arg(sample("straight.hair")).args(arguments);
+    command
+}
+
+fn run(folder: &Path, arguments: &[&str]) -> Output {
+    command(folder, arguments).output().unwrap()
+}
+
+fn names(folder: &Path) -> Vec<String> {
+    let entries = std::fs::read_dir(folder).unwrap();
+    let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
+    names.sort();
+    names
+}
+
+#[test]
+fn a_picture_its_preview_and_nothing_but_json_on_stdout() {
+    let folder = folder("picture");
+    let small = ["--width", "16", "--height", "12", "--spp", "2", "--json", "--explain"];
+    let done = run(&folder, &[&small[..], &["-o", "a b.exr", "--png", "a.png"]].concat());
+    assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    let report: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    assert_eq!((report["spp"].as_u64(), report["samples"].as_u64()), (Some(2), Some(16 * 12 * 2)));
+    assert!(report["relative_error"].is_f64() && report["seconds"].is_f64());
+    assert_eq!(names(&folder), ["a b.exr", "a.png"]);
+    let exr = std::fs::read(folder.join("a b.exr")).unwrap();
+    let told = b"--json --explain -o 'a b.exr' --png a.png";
+    assert!(exr.windows(told.len()).any(|w| w == told), "the command as it was given");
+
+    let quiet = run(&folder, &["--width", "4", "--height", "4", "--spp", "1", "-o", "q.exr"]);
+    assert!(quiet.status.success() && quiet.stdout.is_empty());
+}
+
+/// So many samples that a test which waited for them would not end.
+const FOREVER: [&str; 2] = ["--spp", "4000000"];
+
+#[test]
+fn what_cannot_be_written_is_refused_before_rendering() {
+    let folder = folder("refused");
+    for (output, says) in [
+        (&["-o", "no/such/a.exr"][..], "no/such/a.exr"),
+        (&["-o", "a.png"], ".exr"),
+        (&["-o", "a.exr", "--png", "a.jpg"], ".png"),
+        (&["-o", "a.exr", "--width", "0"], "width"),
+        (&["-o", "a.exr", "--mesh", "none.obj"], "none.obj"),
+        (&["-o", "a.exr", "--env", "none.hdr"], "none.hdr"),
+        (&["-o", "a.exr", "--aovs", "glint"], "glint"),
+        (&["-o", "a.exr", "--no-such-flag"], "--no-such-flag"),
+        (&["--png", "a.png"], "--output"),
+    ] {
+        let refused = run(&folder, &[&FOREVER, output].concat());
+        let words = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{output:?}: {words}");
+        assert!(words.contains(says) && refused.stdout.is_empty(), "{output:?}: {words}");
+        assert!(names(&folder).is_empty(), "{output:?}");
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_nothing_behind() {
+    let folder = folder("interrupted");
+    let arguments = [&FOREVER[..], &["-o", "a.exr", "--explain"]].concat();
+    let mut child = command(&folder, &arguments).stderr(Stdio::piped()).spawn().unwrap();
+    // The first words come after the handler stands.
+    let mut words = BufReader::new(child.stderr.take().unwrap());
+    words.read_line(&mut String::new()).unwrap();
+    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(names(&folder).is_empty());
+}
