@@ -181,4 +181,43 @@ mod tests {
         }
         assert!((sum / 4096.0).abs() < 4.0 / 12.0 / 64.0);
     }
+
+    /// Neighbours in the picture must not share their luck: a pattern would stand in the noise.
+    #[test]
+    fn neighbouring_pixels_are_not_correlated() {
+        const EDGE: u32 = 64;
+        let number = |x, y, d: usize, index| f64::from(Sampler::new(0, x, y, 0, index).four(2)[d]) - 0.5;
+        for (right, down) in [(1, 0), (0, 1), (1, 1), (2, 0), (16, 0), (0, 16)] {
+            for (d, e) in [(0, 0), (1, 1), (2, 2), (3, 3), (0, 1), (2, 3)] {
+                let mut sum = 0.0;
+                for place in 0..EDGE * EDGE {
+                    let (x, y) = (place % EDGE, place / EDGE);
+                    sum += number(x, y, d, 0) * number(x + right, y + down, e, 0);
+                    sum += number(x, y, d, 1) * number(x + right, y + down, e, 1);
+                }
+                let correlation = 12.0 * sum / f64::from(2 * EDGE * EDGE);
+                assert!(correlation.abs() < 5.0 / 90.0, "{right}, {down}, {d}, {e}: {correlation}");
+            }
+        }
+    }
+
+    /// Inside a pixel the four dimensions of a set, and those of different sets, must not go together.
+    #[test]
+    fn dimensions_are_not_correlated() {
+        let mut sums = [[0.0f64; 8]; 8];
+        for pixel in 0..512 {
+            for index in 0..8 {
+                let sampler = Sampler::new(3, pixel % 32, pixel / 32, 1, index);
+                let [a, b] = [sampler.four(1), sampler.four(2)];
+                let all: [f32; 8] = std::array::from_fn(|d| if d < 4 { a[d] } else { b[d - 4] } - 0.5);
+                for (i, j) in (0..8).flat_map(|i| (0..i).map(move |j| (i, j))) {
+                    sums[i][j] += f64::from(all[i] * all[j]);
+                }
+            }
+        }
+        for (i, j) in (0..8).flat_map(|i| (0..i).map(move |j| (i, j))) {
+            let correlation = 12.0 * sums[i][j] / 4096.0;
+            assert!(correlation.abs() < 5.0 / 64.0, "{i}, {j}: {correlation}");
+        }
+    }
 }
