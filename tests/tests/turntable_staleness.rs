@@ -49,14 +49,14 @@ impl Bench {
     }
 
     /// Every file of the output folder with its bytes; frames as their pixels, for their headers
-    /// hold the seconds they took.
+    /// hold the seconds they took; without the report and the manifest, which hold those too.
     fn contents(&self) -> BTreeMap<PathBuf, Vec<u8>> {
         let mut found = BTreeMap::new();
         for folder in [self.out(), self.out().join("frames")] {
             for entry in std::fs::read_dir(folder).into_iter().flatten().flatten() {
                 let path = entry.path();
                 let name = path.file_name().unwrap().to_string_lossy().into_owned();
-                if path.is_file() && !name.starts_with("report.") {
+                if path.is_file() && !name.starts_with("report.") && name != "manifest.json" {
                     let is_frame = path.extension().is_some_and(|e| e == "exr");
                     let bytes = if is_frame && !name.starts_with('.') {
                         pixels(&path)
@@ -123,7 +123,20 @@ fn damage_is_mended_and_nothing_else_touched() {
         assert_eq!(bench.made(&[]), [name], "a truncated {name}");
         std::fs::write(path(name), b"").unwrap();
         assert_eq!(bench.made(&[]), [name], "an empty {name}");
+        let mut bytes = std::fs::read(path(name)).unwrap();
+        let middle = bytes.len() * 3 / 4;
+        bytes[middle] ^= 0x10;
+        std::fs::write(path(name), &bytes).unwrap();
+        assert_eq!(bench.made(&[]), [name], "a flipped bit in {name}");
     }
+    let mut bytes = std::fs::read(path(FRAMES[1])).unwrap();
+    let middle = bytes.len() * 3 / 4;
+    bytes[middle] ^= 0x10;
+    std::fs::write(path(FRAMES[1]), &bytes).unwrap();
+    std::fs::remove_file(path("manifest.json")).unwrap();
+    let made = bench.made(&["--frames", "1-3"]);
+    assert!(made.contains(&FRAMES[1].to_owned()), "a flipped bit that no manifest tells of: {made:?}");
+    assert!(!made.contains(&FRAMES[0].to_owned()), "sound frames need no manifest: {made:?}");
     assert_eq!(bench.contents(), whole, "what was made again has the same bits");
     let stale = path("frames/.frame.0001.exr.4294967295.abc.tmp");
     std::fs::write(&stale, b"half").unwrap();
@@ -143,7 +156,12 @@ fn more_frames_keep_the_views_there_are() {
     assert_eq!(four[Path::new(FRAMES[0])], two[Path::new(FRAMES[0])]);
     assert_ne!(four[Path::new(FRAMES[1])], two[Path::new(FRAMES[1])]);
     let summary = bench.command(&["--set", "turntable.frames=2", "--explain"]).output().unwrap();
-    assert!(String::from_utf8_lossy(&summary.stdout).contains("the same view is there as"));
+    let told = String::from_utf8_lossy(&summary.stdout).into_owned();
+    assert!(told.contains("the same view is there as"), "{told}");
+    assert!(told.contains("none of this turntable's frames"), "{told}");
+    let shorter = bench.command(&["--set", "turntable.frames=2"]).output().unwrap();
+    let told = String::from_utf8_lossy(&shorter.stderr).into_owned();
+    assert!(told.contains("2 frames are none of this turntable's, from frames/frame.0003.exr on"), "{told}");
 }
 
 #[test]
@@ -161,34 +179,119 @@ fn frames_can_be_shared_out() {
     assert_eq!(bench.contents(), other.contents(), "shared out or not, the same bits");
 }
 
+/// Enough samples that a kill can hit a frame being rendered.
+const SLOW: [&str; 2] = ["--set", "render.spp=256"];
+
+/// Files that are there are whole: frames can be read, the rest equals that of an undisturbed run.
+fn assert_whole(bench: &Bench, undisturbed: &Bench) {
+    for name in FRAMES.iter().chain(&["sheet.png", "groom.txt", "groom.hair"]) {
+        let path = bench.out().join(name);
+        match path.extension().and_then(|e| e.to_str()) {
+            _ if !path.exists() => {}
+            Some("exr") => assert_eq!(pixels(&path), pixels(&undisturbed.out().join(name)), "{name}"),
+            _ => assert_eq!(
+                std::fs::read(&path).unwrap(),
+                std::fs::read(undisturbed.out().join(name)).unwrap(),
+                "{name}"
+            ),
+        }
+    }
+}
+
+/// Starts a run and waits until `name` is there or the run has ended.
+fn run_until(bench: &Bench, name: &str) -> std::process::Child {
+    let mut command = bench.command(&SLOW);
+    let mut child = command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    while !bench.out().join(name).exists() && child.try_wait().unwrap().is_none() {
+        std::thread::sleep(Duration::from_millis(1));
+    }
+    child
+}
+
 #[test]
 fn a_killed_run_leaves_no_half_file_and_is_resumed_to_the_same_bits() {
     let undisturbed = Bench::new();
-    undisturbed.made(&[]);
+    undisturbed.made(&SLOW);
     let bench = Bench::new();
-    for delay in [5, 15, 30, 50, 80, 120] {
-        let mut child = bench.command(&[]).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+    let mut hits = 0;
+    for (seen, coming) in [("groom.txt", FRAMES[0]), (FRAMES[0], FRAMES[1]), (FRAMES[1], FRAMES[2])] {
+        let mut child = run_until(&bench, seen);
+        child.kill().unwrap();
+        child.wait().unwrap();
+        hits += usize::from(!bench.out().join(coming).exists());
+        assert_whole(&bench, &undisturbed);
+    }
+    assert!(hits > 0, "no kill came while something was left to make");
+    // And at moments nobody chose, some of them while a file is being written.
+    for delay in [3, 9, 20, 40] {
+        let mut child = bench.command(&SLOW).stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
         std::thread::sleep(Duration::from_millis(delay));
         let _ = child.kill();
         child.wait().unwrap();
-        for name in FRAMES.iter().chain(&["sheet.png", "groom.txt"]).map(|name| bench.out().join(name)) {
-            match name.extension().and_then(|e| e.to_str()) {
-                _ if !name.exists() => {}
-                Some("exr") => assert!(!pixels(&name).is_empty()),
-                _ => {
-                    let twin = undisturbed.out().join(name.strip_prefix(bench.out()).unwrap());
-                    assert_eq!(
-                        std::fs::read(&name).unwrap(),
-                        std::fs::read(twin).unwrap(),
-                        "{}",
-                        name.display()
-                    );
-                }
-            }
-        }
+        assert_whole(&bench, &undisturbed);
     }
-    bench.made(&[]);
+    bench.made(&SLOW);
     assert_eq!(bench.contents(), undisturbed.contents());
+}
+
+#[test]
+#[cfg(unix)]
+fn an_interrupted_run_says_so_and_leaves_nothing_half_made() {
+    let undisturbed = Bench::new();
+    undisturbed.made(&SLOW);
+    let bench = Bench::new();
+    let mut child = run_until(&bench, FRAMES[0]);
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap();
+    assert!(sent.success(), "the run was over before it could be interrupted");
+    assert_eq!(child.wait().unwrap().code(), Some(130));
+    assert!(!bench.out().join("sheet.png").exists());
+    assert_whole(&bench, &undisturbed);
+    let names = bench.contents().into_keys().map(|p| p.display().to_string());
+    assert_eq!(names.filter(|name| name.ends_with(".tmp")).count(), 0);
+    bench.made(&SLOW);
+    assert_eq!(bench.contents(), undisturbed.contents());
+}
+
+#[test]
+fn runs_at_once_in_one_folder_do_not_disturb_each_other() {
+    let undisturbed = Bench::new();
+    undisturbed.made(&[]);
+    let bench = Bench::new();
+    let start = |_| bench.command(&[]).stdout(Stdio::null()).stderr(Stdio::piped()).spawn().unwrap();
+    let children: Vec<_> = (0..4).map(start).collect();
+    for child in children {
+        let output = child.wait_with_output().unwrap();
+        assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+    assert_eq!(bench.contents(), undisturbed.contents());
+}
+
+#[test]
+fn every_input_counts_by_its_bytes() {
+    let bench = Bench::new();
+    let file = |name: &str| bench.folder.path().join(name);
+    let samples = end_to_end_tests::samples_dir();
+    let copy = |from: &str, to: &str| std::fs::copy(samples.join(from), file(to)).unwrap();
+    copy("wavy.hair", "in.hair");
+    copy("head.obj", "head.obj");
+    copy("studio.exr", "sky.exr");
+    let text = PIPELINE
+        .replace("{sample: {style: wavy, strands: 40, points: 6}}", "{file: in.hair}\nmesh: {file: head.obj}")
+        .replace("{constant: [1, 0.9, 0.8]}", "{file: sky.exr}");
+    std::fs::write(file("turn.yaml"), text).unwrap();
+    assert_eq!(bench.made(&[]).len(), 6);
+    copy("wavy.hair", "in.hair");
+    assert!(bench.made(&[]).is_empty(), "the same bytes at a later time");
+    let head = std::fs::read_to_string(file("head.obj")).unwrap();
+    std::fs::write(file("head.obj"), format!("{head}# seen\n")).unwrap();
+    let frames_and_sheet = [&FRAMES[..], &["sheet.png"]].concat();
+    assert_eq!(bench.made(&[]), frames_and_sheet, "the mesh concerns frames");
+    let mut sky = std::fs::read(file("sky.exr")).unwrap();
+    sky.push(0);
+    std::fs::write(file("sky.exr"), sky).unwrap();
+    assert_eq!(bench.made(&[]), frames_and_sheet, "so does the environment");
+    copy("curly.hair", "in.hair");
+    assert_eq!(bench.made(&[]).len(), 6, "the groom concerns everything");
 }
 
 #[test]

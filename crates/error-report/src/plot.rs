@@ -52,10 +52,17 @@ impl Axis {
         self.start + share * (self.end - self.start)
     }
 
-    /// Decades that get a line: at most about twelve.
-    fn ticks(&self) -> impl Iterator<Item = i32> {
-        let step = ((self.high - self.low) / 12).max(0) as usize + 1;
-        (self.low..=self.high).step_by(step)
+    /// Values that get a line, with their labels: decades, at most about twelve, and where there are
+    /// few of them 2 and 5 in between.
+    fn ticks(&self) -> Vec<(f64, String)> {
+        let decades = self.high - self.low;
+        let step = (decades / 12).max(0) as usize + 1;
+        let between: &[i32] = if decades <= 2 { &[1, 2, 5] } else { &[1] };
+        let all = (self.low..=self.high).step_by(step);
+        let all = all.flat_map(|decade| between.iter().map(move |&times| (decade, times)));
+        all.filter(|&(decade, times)| decade < self.high || times == 1)
+            .map(|(decade, times)| (f64::from(times) * 10f64.powi(decade), tick_label(decade, times)))
+            .collect()
     }
 }
 
@@ -93,19 +100,18 @@ pub(crate) fn svg(plot: &Plot) -> String {
 
 fn push_grid(out: &mut String, plot: &Plot, x_axis: &Axis, y_axis: &Axis) {
     let (bottom, right) = (HEIGHT - BOTTOM, WIDTH - RIGHT);
-    for decade in x_axis.ticks() {
-        let x = x_axis.at(10f64.powi(decade));
+    for (value, label) in x_axis.ticks() {
+        let x = x_axis.at(value);
         let _ =
             writeln!(out, "<line class=\"grid\" x1=\"{x:.2}\" y1=\"{TOP}\" x2=\"{x:.2}\" y2=\"{bottom}\"/>");
         let y = bottom + 18.0;
-        let label = decade_label(decade);
         let _ = writeln!(out, "<text x=\"{x:.2}\" y=\"{y}\" text-anchor=\"middle\">{label}</text>");
     }
-    for decade in y_axis.ticks() {
-        let y = y_axis.at(10f64.powi(decade));
+    for (value, label) in y_axis.ticks() {
+        let y = y_axis.at(value);
         let _ =
             writeln!(out, "<line class=\"grid\" x1=\"{LEFT}\" y1=\"{y:.2}\" x2=\"{right}\" y2=\"{y:.2}\"/>");
-        let (x, y, label) = (LEFT - 8.0, y + 4.0, decade_label(decade));
+        let (x, y) = (LEFT - 8.0, y + 4.0);
         let _ = writeln!(out, "<text x=\"{x}\" y=\"{y:.2}\" text-anchor=\"end\">{label}</text>");
     }
     let (x, y) = ((LEFT + right) / 2.0, HEIGHT - 8.0);
@@ -118,8 +124,12 @@ fn push_grid(out: &mut String, plot: &Plot, x_axis: &Axis, y_axis: &Axis) {
     );
 }
 
-fn decade_label(decade: i32) -> String {
-    if (-3..=4).contains(&decade) { 10f64.powi(decade).to_string() } else { format!("1e{decade}") }
+fn tick_label(decade: i32, times: i32) -> String {
+    match decade {
+        0..=4 => format!("{times}{}", "0".repeat(decade as usize)),
+        -3..0 => format!("0.{}{times}", "0".repeat(-decade as usize - 1)),
+        _ => format!("{times}e{decade}"),
+    }
 }
 
 /// A dashed line of the expected slope through the middle of the plot, cut at its frame.
@@ -140,9 +150,9 @@ fn push_guide(out: &mut String, slope: f64, x_axis: &Axis, y_axis: &Axis) {
     );
     let _ = writeln!(
         out,
-        "<text class=\"note\" x=\"{:.2}\" y=\"{:.2}\">slope {slope}</text>",
-        x1 + 6.0,
-        y1 + 14.0
+        "<text class=\"note\" x=\"{:.2}\" y=\"{:.2}\" text-anchor=\"end\">slope {slope}</text>",
+        x2 - 6.0,
+        y2 - 14.0
     );
 }
 
@@ -174,8 +184,37 @@ fn push_legend(out: &mut String, curves: &[Curve]) {
         let (x, y, color) =
             (WIDTH - RIGHT - 12.0, TOP + 16.0 + 18.0 * index as f64, COLORS[index % COLORS.len()]);
         let label = escape(curve.label);
-        let _ = writeln!(out, "<circle cx=\"{x}\" cy=\"{y}\" r=\"4\" fill=\"{color}\"/>");
+        // Square, so that nobody takes it for a measurement.
+        let (left, top) = (x - 5.0, y - 5.0);
+        let _ = writeln!(out, "<rect x=\"{left}\" y=\"{top}\" width=\"10\" height=\"10\" fill=\"{color}\"/>");
         let _ =
             writeln!(out, "<text x=\"{}\" y=\"{}\" text-anchor=\"end\">{label}</text>", x - 10.0, y + 4.0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_axes_have_lines_between_decades() {
+        let labels = |low: f64, high: f64| -> Vec<String> {
+            let axis = Axis::around([low, high].into_iter(), 0.0, 1.0).unwrap();
+            axis.ticks().into_iter().map(|(_, label)| label).collect()
+        };
+        assert_eq!(labels(0.02, 0.7), ["0.01", "0.02", "0.05", "0.1", "0.2", "0.5", "1"]);
+        assert_eq!(labels(3.0, 4.0), ["1", "2", "5", "10"]);
+        assert_eq!(labels(1e-5, 2.0), ["1e-5", "1e-4", "0.001", "0.01", "0.1", "1", "10"]);
+        assert!(labels(1e-300, 1e300).len() < 20);
+    }
+
+    #[test]
+    fn points_stand_where_their_ticks_say() {
+        let axis = Axis::around([1.0, 100.0].into_iter(), 10.0, 50.0).unwrap();
+        let at: Vec<f64> = [1.0, 10.0, 100.0].iter().map(|&v| axis.at(v)).collect();
+        assert_eq!(at, [10.0, 30.0, 50.0]);
+        for (value, label) in axis.ticks() {
+            assert!((value - label.parse::<f64>().unwrap()).abs() < 1e-12 * value);
+        }
     }
 }

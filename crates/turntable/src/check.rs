@@ -8,7 +8,10 @@ use hair_render::Aov;
 use crate::error::Fault;
 use crate::nearest::nearest;
 use crate::schema::{EnvironmentSource, Pipeline};
-use crate::yaml;
+use crate::{sheet, yaml};
+
+/// A picture of more pixels than this is taken for a slip: it would need gigabytes.
+const MOST_PIXELS: u64 = 1 << 28;
 
 /// Collects faults by key.
 struct Check<'a> {
@@ -53,6 +56,19 @@ impl Check<'_> {
         }
     }
 
+    fn mesh_file(&mut self, path: &Path) {
+        const KNOWN: [&str; 3] = ["obj", "gltf", "glb"];
+        self.file("mesh.file", path);
+        if !path.extension().is_some_and(|e| KNOWN.iter().any(|k| e.eq_ignore_ascii_case(k))) {
+            let (path, known) = (path.display(), KNOWN.join(", ."));
+            self.fault("mesh.file", format!("`{path}` has no ending that can be read (.{known})"));
+        }
+    }
+
+    fn point(&mut self, key: &str, point: [f64; 3]) {
+        self.need(point.iter().all(|v| v.is_finite()), key, point, "three finite numbers");
+    }
+
     fn color(&mut self, key: &str, color: Option<[f32; 3]>, most: f32) {
         let good = color.is_none_or(|c| c.iter().all(|v| (0.0..=most).contains(v) && v.is_finite()));
         let expected =
@@ -75,25 +91,21 @@ impl Check<'_> {
                 }
             }
             (None, Some(sample)) => {
-                self.need(
-                    (1..=10_000_000).contains(&sample.strands),
-                    "groom.sample.strands",
-                    sample.strands,
-                    "1..=10000000",
-                );
-                self.need(
-                    (2..=10_000).contains(&sample.points),
-                    "groom.sample.points",
-                    sample.points,
-                    "2..=10000",
-                );
+                // With these the generator's own limits (2^24 strands, fewer than 2^32 points) hold.
+                let (strands, points) = (sample.strands, sample.points);
+                self.need((1..=4_000_000).contains(&strands), "groom.sample.strands", strands, "1..=4000000");
+                self.need((3..=1000).contains(&points), "groom.sample.points", points, "3..=1000");
             }
             (Some(_), Some(_)) => self.fault("groom", "has both `file` and `sample`; keep one"),
             (None, None) => self.fault("groom", "needs `file: PATH` or `sample: {...}`"),
         }
         self.unit("groom.meters_per_unit", groom.meters_per_unit);
         if let Some(mesh) = &pipeline.mesh {
-            self.file("mesh.file", &mesh.file);
+            if mesh.file.as_os_str().is_empty() {
+                self.fault("mesh", "needs `file: PATH`");
+            } else {
+                self.mesh_file(&mesh.file);
+            }
             self.color("mesh.albedo", Some(mesh.albedo), 1.0);
             self.unit("mesh.meters_per_unit", mesh.meters_per_unit);
         }
@@ -119,14 +131,14 @@ impl Check<'_> {
         self.need(
             attributes.width.is_none_or(width),
             "attributes.width",
-            attributes.width,
+            attributes.width.unwrap_or_default(),
             "a diameter of at least 0",
         );
         let ramp = attributes.width_ramp;
         self.need(
             ramp.is_none_or(|r| r.into_iter().all(width)),
             "attributes.width_ramp",
-            ramp,
+            ramp.unwrap_or_default(),
             "two diameters of at least 0",
         );
         if attributes.width.is_some() && ramp.is_some() {
@@ -174,6 +186,8 @@ impl Check<'_> {
         if let Some(sheet) = &pipeline.sheet {
             self.need(sheet.columns != Some(0), "sheet.columns", 0, "at least 1");
             self.need(sheet.gap <= 1024, "sheet.gap", sheet.gap, "at most 1024 pixels");
+            let (width, height) = sheet::size_of(sheet, pipeline.turntable.frames, &pipeline.render);
+            self.pixels("sheet", width, height);
         }
     }
 
@@ -189,8 +203,9 @@ impl Check<'_> {
         self.color("material.color", m.color, 1.0);
         self.color("material.absorption", m.absorption, f32::MAX);
         let unit = |v: Option<f32>| v.is_none_or(|v| (0.0..=1.0).contains(&v));
-        self.need(unit(m.melanin), "material.melanin", m.melanin, "0..1");
-        self.need(unit(m.redness), "material.redness", m.redness, "0..1");
+        for (key, value) in [("material.melanin", m.melanin), ("material.redness", m.redness)] {
+            self.need(unit(value), key, value.unwrap_or_default(), "0..1");
+        }
         for (key, beta) in [("material.beta_m", m.beta_m), ("material.beta_n", m.beta_n)] {
             self.need(beta > 0.0 && beta <= 1.0, key, beta, "above 0, at most 1");
         }
@@ -206,6 +221,8 @@ impl Check<'_> {
         for (i, area) in lights.area.iter().enumerate() {
             let key = |name: &str| format!("lights.area.{i}.{name}");
             self.color(&key("radiance"), Some(area.radiance), f32::MAX);
+            self.point(&key("position"), area.position);
+            self.point(&key("target"), area.target);
             let size = area.size.iter().all(|&s| s > 0.0 && s.is_finite());
             self.need(size, &key("size"), area.size, "two lengths above 0");
             self.need(
@@ -217,6 +234,12 @@ impl Check<'_> {
         }
         if lights.environment.is_none() && lights.area.is_empty() {
             self.fault("lights", "holds nothing that shines; add `environment: {studio: true}`");
+        }
+    }
+
+    fn pixels(&mut self, key: &str, width: u64, height: u64) {
+        if width.saturating_mul(height) > MOST_PIXELS {
+            self.fault(key, format!("is {width} x {height} pixels, expected at most {MOST_PIXELS} in all"));
         }
     }
 
@@ -246,6 +269,7 @@ impl Check<'_> {
         self.need(camera.elevation.abs() <= 90.0, "camera.elevation", camera.elevation, "-90..90 degrees");
         self.unit("camera.distance", camera.distance);
         self.unit("camera.zoom", Some(camera.zoom));
+        self.point("camera.target", camera.target.unwrap_or_default());
         let turn = &pipeline.turntable;
         self.need((1..=9999).contains(&turn.frames), "turntable.frames", turn.frames, "1..=9999");
         self.need(turn.start.is_finite(), "turntable.start", turn.start, "an angle in degrees");
@@ -254,6 +278,7 @@ impl Check<'_> {
         for (key, size) in [("render.width", render.width), ("render.height", render.height)] {
             self.need((1..=65_536).contains(&size), key, size, "1..=65536 pixels");
         }
+        self.pixels("render", u64::from(render.width), u64::from(render.height));
         self.need(render.spp >= 1, "render.spp", render.spp, "at least 1");
         for (i, name) in render.aovs.iter().enumerate() {
             if Aov::from_name(name).is_none() && !name.eq_ignore_ascii_case("all") {
@@ -278,6 +303,20 @@ mod tests {
     fn found(text: &str) -> Vec<String> {
         let pipeline = yaml::parse(text).unwrap();
         faults(&pipeline, Path::new("turn.yaml"), text).iter().map(ToString::to_string).collect()
+    }
+
+    #[test]
+    fn samples_that_cannot_be_grown_are_refused() {
+        let with = |sample: &str| found(&GOOD.replace("sample: {}", &format!("sample: {{{sample}}}")));
+        assert!(
+            with("points: 2")[0].starts_with("turn.yaml:2:26: groom.sample.points: is 2, expected 3..=1000")
+        );
+        for (sample, good) in
+            [("points: 3", true), ("points: 1001", false), ("strands: 0", false), ("strands: 4000001", false)]
+        {
+            assert_eq!(with(sample).is_empty(), good, "{sample}");
+        }
+        assert_eq!(with("strands: 4000000, points: 1000"), Vec::<String>::new());
     }
 
     const GOOD: &str = "version: 1\ngroom: {sample: {}}\nlights: {environment: {studio: true}}\n";
@@ -322,6 +361,12 @@ mod tests {
             ("turntable: {frames: 0}\n", "1..=9999"),
             ("turntable: {degrees: 361}\n", "-360..360"),
             ("mesh: {file: none.obj}\n", "no file at"),
+            ("mesh: {}\n", "turn.yaml:4:7: mesh: needs `file: PATH`"),
+            ("attributes: {width: -1}\n", "attributes.width: is -1.0, expected"),
+            ("material: {melanin: 3}\n", "material.melanin: is 3.0, expected 0..1"),
+            ("camera: {target: [.nan, 0, 0]}\n", "three finite numbers"),
+            ("render: {width: 60000, height: 60000}\n", "render: is 60000 x 60000 pixels"),
+            ("turntable: {frames: 9999}\nrender: {width: 900}\nsheet: {}\n", "sheet: is "),
         ] {
             let all = found(&format!("{GOOD}{more}"));
             assert!(all.len() == 1 && all[0].contains(words), "{more}: {all:?}");

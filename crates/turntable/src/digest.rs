@@ -26,9 +26,12 @@ impl Digest {
 pub(crate) struct Ingredients(blake3::Hasher);
 
 impl Ingredients {
-    /// Begins a digest for a kind of step; the program's version is part of every one.
+    /// Begins a digest for a kind of step; the program's version is part of every one, and so are the
+    /// sources it was built from: pictures of yesterday's renderer must not pass for today's. Builds
+    /// of the same sources agree, on whatever machine, so that a farm may mix them.
     pub fn of(step: &str) -> Self {
-        Ingredients(blake3::Hasher::new()).word(env!("CARGO_PKG_VERSION")).word(step)
+        let hasher = Ingredients(blake3::Hasher::new());
+        hasher.word(env!("CARGO_PKG_VERSION")).word(env!("TURNTABLE_SOURCES")).word(step)
     }
 
     /// Adds a word; its length keeps neighbours apart.

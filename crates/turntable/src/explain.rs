@@ -9,7 +9,7 @@ use crate::{Plan, State, StepKind};
 pub struct Remark {
     /// What it is about: an output or a part of the work.
     pub what: String,
-    /// `make`, `keep`, `move` or `leave out`.
+    /// `make`, `keep`, `move`, `leave` (alone) or `leave out`.
     pub action: &'static str,
     /// Why.
     pub why: String,
@@ -21,6 +21,11 @@ impl Plan {
     pub fn explain(&self) -> Vec<Remark> {
         let mut remarks: Vec<Remark> =
             self.steps().iter().map(|s| of_state(&s.output.to_string_lossy(), &s.state)).collect();
+        remarks.extend(self.left_over().iter().map(|path| Remark {
+            what: path.to_string_lossy().into_owned(),
+            action: "leave",
+            why: "none of this turntable's frames; nothing uses it".into(),
+        }));
         remarks.extend(self.left_out());
         remarks
     }

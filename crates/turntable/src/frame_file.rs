@@ -4,7 +4,7 @@ use std::fs::File;
 use std::io::BufReader;
 use std::path::Path;
 
-use exr::block::reader::Reader;
+use exr::block::reader::{ChunksReader as _, Reader};
 use exr::meta::attribute::AttributeValue;
 use exr::prelude::{ReadChannels as _, ReadLayers as _, Text};
 use glam::Vec3;
@@ -24,12 +24,23 @@ pub(crate) struct FrameHeader {
 
 /// The header of a whole frame; `None` when the file is missing, not ours or cut short.
 ///
-/// All compressed blocks are walked over, none is unpacked.
+/// All compressed blocks are walked over, none is unpacked; [`unpacks`] does that.
 pub(crate) fn whole_header(path: &Path) -> Option<FrameHeader> {
     let reader = Reader::read_from_buffered(BufReader::new(File::open(path).ok()?), true).ok()?;
     let header = header_of(&reader)?;
     let mut chunks = reader.all_chunks(true).ok()?;
     chunks.all(|chunk| chunk.is_ok()).then_some(header)
+}
+
+/// Whether all compressed blocks of a frame can be unpacked; each holds a checksum.
+pub(crate) fn unpacks(path: &Path) -> bool {
+    let read = || -> exr::error::UnitResult {
+        Reader::read_from_buffered(BufReader::new(File::open(path)?), true)?
+            .all_chunks(true)?
+            .sequential_decompressor(true)
+            .try_for_each(|block| block.map(drop))
+    };
+    read().is_ok()
 }
 
 /// The header of a frame, whole or not.
@@ -131,7 +142,12 @@ mod tests {
         let back = read_beauty(&path).unwrap();
         assert_eq!((back.width, back.height), (40, 30));
         assert_eq!((&back.beauty, &back.alpha), (&frame.beauty, &frame.alpha));
+        assert!(unpacks(&path));
         let bytes = std::fs::read(&path).unwrap();
+        let mut flipped = bytes.clone();
+        flipped[bytes.len() * 3 / 4] ^= 0x10;
+        std::fs::write(&path, &flipped).unwrap();
+        assert!(!unpacks(&path), "a flipped bit in the compressed pixels");
         for cut in (0..bytes.len()).step_by(97).chain([bytes.len() - 1]) {
             std::fs::write(&path, &bytes[..cut]).unwrap();
             assert_eq!(whole_header(&path), None, "cut at {cut} of {}", bytes.len());

@@ -7,8 +7,9 @@
 //! [`Plan::run`] makes what is missing or stale and nothing else.
 //!
 //! Stale means: the digest of everything an output depends on (bytes of inputs, settings that matter
-//! to it, program version) differs from the one it was made with. Frames carry theirs in the EXR
-//! header; the others have theirs in `manifest.json`. Every file is written whole or not at all.
+//! to it, version and sources of the program) differs from the one it was made with, or its bytes are
+//! not those that were written. Frames carry their digest in the EXR header; `manifest.json` holds
+//! that of every output, and a digest of its bytes. Every file is written whole or not at all.
 //!
 //! ```
 //! use turntable::{Options, Plan, State};
@@ -41,6 +42,7 @@ mod scene;
 pub mod schema;
 mod sheet;
 mod yaml;
+mod yaml_words;
 
 pub use error::{Fault, TurntableError};
 pub use explain::Remark;

@@ -50,9 +50,18 @@ impl Manifest {
         Some(content(&self.folder.join(output)).is_ok_and(|found| found == entry.content))
     }
 
+    /// Whether `output` still has the bytes that were written for `digest`; `None` when nobody wrote
+    /// down which those were.
+    pub fn vouches(&self, output: &Path, digest: &str) -> Option<bool> {
+        let entry = self.made.get(&key(output)).filter(|entry| entry.digest == digest)?;
+        Some(content(&self.folder.join(output)).is_ok_and(|found| found == entry.content))
+    }
+
     /// Writes down that `output` was just made from `digest`.
     pub fn record(&mut self, output: &Path, digest: &Digest) -> Result<(), TurntableError> {
         let content = content(&self.folder.join(output))?;
+        // Others may work in the same folder: what they wrote down since stays.
+        *self = Manifest::open(&self.folder);
         self.made.insert(key(output), Entry { digest: digest.as_str().to_owned(), content });
         let path = Manifest::path(&self.folder);
         let text = serde_json::to_string_pretty(self).unwrap_or_default() + "\n";
@@ -81,6 +90,19 @@ mod tests {
     use crate::digest::Ingredients;
 
     #[test]
+    fn two_runs_keep_each_others_entries() {
+        let folder = tempfile::tempdir().unwrap();
+        let digest = Ingredients::of("1").finish();
+        let mut runs = [Manifest::open(folder.path()), Manifest::open(folder.path())];
+        for (run, name) in runs.iter_mut().zip(["a.txt", "b.txt"]) {
+            std::fs::write(folder.path().join(name), name).unwrap();
+            run.record(Path::new(name), &digest).unwrap();
+        }
+        let both = Manifest::open(folder.path());
+        assert!(["a.txt", "b.txt"].iter().all(|name| both.holds(Path::new(name), &digest) == Some(true)));
+    }
+
+    #[test]
     fn entries_answer_for_digest_and_bytes() {
         let folder = tempfile::tempdir().unwrap();
         let (name, one, two) =
@@ -92,7 +114,10 @@ mod tests {
         let again = || Manifest::open(folder.path());
         assert_eq!(again().holds(name, &one), Some(true));
         assert_eq!(again().holds(name, &two), Some(false));
+        assert_eq!(again().vouches(name, one.as_str()), Some(true));
+        assert_eq!(again().vouches(name, two.as_str()), None);
         write("xy");
+        assert_eq!(again().vouches(name, one.as_str()), Some(false));
         assert_eq!(again().holds(name, &one), Some(false));
         std::fs::remove_file(folder.path().join(name)).unwrap();
         assert_eq!(again().holds(name, &one), Some(false));

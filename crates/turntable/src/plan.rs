@@ -1,6 +1,6 @@
 //! What has to be made, what is up to date, and why.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::digest::{Digest, Ingredients};
@@ -91,13 +91,14 @@ impl Plan {
     /// [`TurntableError::Pipeline`] with every fault of the file, [`TurntableError::NoSuchFrame`], or
     /// [`TurntableError::Io`] when an input cannot be read.
     pub fn new(file: &Path, options: Options) -> Result<Plan, TurntableError> {
-        let text = std::fs::read_to_string(file).map_err(|e| TurntableError::io(file, "read", e))?;
+        let text = text_of(file)?;
         let pipeline = yaml::parse_with(&text, &options.settings).map_err(|fault| {
             let place = fault.place.map(|p| (p.line, p.column));
             let (file, message) = (file.to_owned(), fault.message);
             TurntableError::Pipeline(vec![Fault { file, place, key: String::new(), message }])
         })?;
-        let faults = check::faults(&pipeline, file, &text);
+        let mut faults = check::faults(&pipeline, file, &text);
+        faults.iter_mut().for_each(|fault| name_flag(fault, &options.settings));
         if !faults.is_empty() {
             return Err(TurntableError::Pipeline(faults));
         }
@@ -108,7 +109,31 @@ impl Plan {
         let base = file.parent().unwrap_or(Path::new("")).to_owned();
         let mut plan = Plan { pipeline, base, output, options, name, steps: Vec::new() };
         plan.steps = plan.look()?;
+        plan.spare_inputs(file)?;
         Ok(plan)
+    }
+
+    /// Refuses a plan that would write over what it reads.
+    fn spare_inputs(&self, file: &Path) -> Result<(), TurntableError> {
+        let pipeline = &self.pipeline;
+        let named = [
+            pipeline.groom.file.as_ref(),
+            pipeline.mesh.as_ref().map(|m| &m.file),
+            pipeline.lights.environment.as_ref().and_then(|e| e.file.as_ref()),
+        ];
+        let inputs = named.into_iter().flatten().map(|input| self.base.join(input)).chain([file.to_owned()]);
+        let inputs: Vec<PathBuf> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
+        let own = [Path::new("manifest.json"), Path::new("report.json"), Path::new("report.html")];
+        let outputs = self.steps.iter().map(|s| s.output.as_path()).chain(own);
+        let faults: Vec<Fault> = outputs
+            .filter(|output| self.output.join(output).canonicalize().is_ok_and(|o| inputs.contains(&o)))
+            .map(|output| {
+                let message =
+                    format!("`{}` would be written over, and is read", self.output.join(output).display());
+                Fault { file: file.to_owned(), place: None, key: "output".into(), message }
+            })
+            .collect();
+        if faults.is_empty() { Ok(()) } else { Err(TurntableError::Pipeline(faults)) }
     }
 
     /// What the pipeline is called.
@@ -161,7 +186,7 @@ impl Plan {
             made(path.clone(), StepKind::Convert, digest)
         });
         let mut steps: Vec<Step> = convert.collect();
-        let frames = self.look_at_frames(&scene)?;
+        let frames = self.look_at_frames(&scene, &manifest)?;
         let tone = |step: &str| Ingredients::of(step).settings(&self.pipeline.tone);
         let mut after = Vec::new();
         if self.pipeline.tone.frames {
@@ -175,7 +200,9 @@ impl Plan {
             let digest =
                 frames.iter().fold(tone("sheet").settings(sheet), |i, f| i.digest(&f.digest)).finish();
             let mut step = made(sheet.file.clone(), StepKind::Sheet, digest);
-            let lacking = |f: &Step| f.state == State::NotAsked && !self.is_there(f);
+            let is_there =
+                |f: &Step| self.sound_frame(&f.output, &manifest).is_some_and(|d| d == f.digest.as_str());
+            let lacking = |f: &Step| f.state == State::NotAsked && !is_there(f);
             if step.state != State::UpToDate && frames.iter().any(lacking) {
                 step.state = State::NotAsked;
             }
@@ -186,19 +213,27 @@ impl Plan {
         Ok(steps)
     }
 
-    fn is_there(&self, frame: &Step) -> bool {
-        let header = frame_file::whole_header(&self.output.join(&frame.output));
-        header.is_some_and(|h| h.digest == frame.digest.as_str())
+    /// The digest of a frame that is whole and undamaged.
+    ///
+    /// Its bytes are compared with those written down in the manifest; frames that others made and
+    /// nobody wrote down are unpacked instead, which takes longer.
+    fn sound_frame(&self, output: &Path, manifest: &Manifest) -> Option<String> {
+        let path = self.output.join(output);
+        let digest = frame_file::whole_header(&path)?.digest;
+        let sound = manifest.vouches(output, &digest).unwrap_or_else(|| frame_file::unpacks(&path));
+        sound.then_some(digest)
     }
 
-    fn look_at_frames(&self, scene: &Digest) -> Result<Vec<Step>, TurntableError> {
+    fn look_at_frames(&self, scene: &Digest, manifest: &Manifest) -> Result<Vec<Step>, TurntableError> {
         let count = self.pipeline.turntable.frames;
         if let Some(asked) = &self.options.frames
             && !asked.iter().any(|number| (1..=count).contains(&number))
         {
             return Err(TurntableError::NoSuchFrame { asked: asked.to_string(), count });
         }
-        let elsewhere = self.frames_by_digest();
+        let there = self.sound_frames(manifest);
+        let by_digest: BTreeMap<&str, &PathBuf> =
+            there.iter().map(|(path, digest)| (digest.as_str(), path)).collect();
         let step = |number: u32| {
             let azimuth = self.azimuth(number);
             let digest = self.frame_digest(scene, azimuth);
@@ -206,10 +241,10 @@ impl Plan {
             let path = self.output.join(&output);
             let state = if self.options.frames.as_ref().is_some_and(|asked| !asked.contains(number)) {
                 State::NotAsked
-            } else if frame_file::whole_header(&path).is_some_and(|h| h.digest == digest.as_str()) {
+            } else if there.get(&output).is_some_and(|found| found == digest.as_str()) {
                 State::UpToDate
-            } else if let Some(other) = elsewhere.get(digest.as_str()).filter(|&other| *other != path) {
-                State::Elsewhere(other.clone())
+            } else if let Some(other) = by_digest.get(digest.as_str()) {
+                State::Elsewhere(self.output.join(other))
             } else if path.exists() {
                 State::Stale
             } else {
@@ -220,13 +255,26 @@ impl Plan {
         Ok((1..=count).map(step).collect())
     }
 
-    /// The whole frames in the output folder, whatever their number, by digest.
-    fn frames_by_digest(&self) -> BTreeMap<String, PathBuf> {
-        let Ok(entries) = std::fs::read_dir(self.output.join("frames")) else { return BTreeMap::new() };
-        let mut paths: Vec<PathBuf> = entries.flatten().map(|e| e.path()).collect();
-        paths.retain(|p| p.extension().is_some_and(|e| e == "exr") && !is_hidden(p));
-        paths.sort();
-        paths.into_iter().filter_map(|p| Some((frame_file::whole_header(&p)?.digest, p))).collect()
+    /// The sound frames in the output folder, whatever their number, with their digests.
+    fn sound_frames(&self, manifest: &Manifest) -> BTreeMap<PathBuf, String> {
+        let outputs = self.frame_files().into_iter();
+        outputs
+            .filter_map(|output| self.sound_frame(&output, manifest).map(|digest| (output, digest)))
+            .collect()
+    }
+
+    /// The EXR files of the output folder's `frames`, as paths inside the output folder.
+    fn frame_files(&self) -> BTreeSet<PathBuf> {
+        let Ok(entries) = std::fs::read_dir(self.output.join("frames")) else { return BTreeSet::new() };
+        let names = entries.flatten().map(|e| Path::new("frames").join(e.file_name()));
+        names.filter(|p| p.extension().is_some_and(|e| e == "exr") && !is_hidden(p)).collect()
+    }
+
+    /// Frames in the output folder that are none of this turntable's: left from a longer one.
+    #[must_use]
+    pub fn left_over(&self) -> Vec<PathBuf> {
+        let own: BTreeSet<&Path> = self.steps.iter().map(|s| s.output.as_path()).collect();
+        self.frame_files().into_iter().filter(|path| !own.contains(path.as_path())).collect()
     }
 
     fn groom_digest(&self) -> Result<Digest, TurntableError> {
@@ -264,6 +312,38 @@ impl Plan {
         let digest = digest.settings(&self.pipeline.camera).settings(&self.pipeline.render);
         digest.settings(&(azimuth, self.pipeline.turntable.turn)).finish()
     }
+}
+
+/// The text of a pipeline file.
+fn text_of(file: &Path) -> Result<String, TurntableError> {
+    let bytes = std::fs::read(file).map_err(|e| TurntableError::io(file, "read", e))?;
+    String::from_utf8(bytes).map_err(|error| {
+        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
+        let line = before.split(|&b| b == b'\n');
+        let place =
+            line.clone().last().map(|last| (line.count(), String::from_utf8_lossy(last).chars().count() + 1));
+        let message = format!("byte {} is not UTF-8, as YAML has to be", before.len());
+        TurntableError::Pipeline(vec![Fault { file: file.to_owned(), place, key: String::new(), message }])
+    })
+}
+
+/// Names the flag that brought a fault in: the file is not to blame, and its place would mislead.
+fn name_flag(fault: &mut Fault, settings: &[String]) {
+    let within = |inner: &str, outer: &str| {
+        inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
+    };
+    let path = |setting: &str| setting.split('=').next().unwrap_or_default().trim().to_owned();
+    // The last one laid over counts.
+    let Some(setting) = settings.iter().rev().find(|s| {
+        let path = path(s);
+        within(&fault.key, &path) || within(&path, &fault.key)
+    }) else {
+        return;
+    };
+    if within(&fault.key, &path(setting)) {
+        fault.place = None;
+    }
+    fault.message += &format!(" (from `--set {setting}`)");
 }
 
 fn is_hidden(path: &Path) -> bool {

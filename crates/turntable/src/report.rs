@@ -32,6 +32,11 @@ pub(crate) fn of_frames(
             "size",
             format!("{} x {} pixels, {} samples a pixel", render.width, render.height, render.spp),
         );
+    let unknown = lines.iter().filter(|line| line.relative_error.is_none()).count();
+    if unknown > 0 {
+        let words = format!("{unknown} frames: below 2 samples a pixel nothing tells how exact they are");
+        report = report.with_about("without a figure", words);
+    }
     if let Some(threads) = threads.filter(|&t| t > 0) {
         report = report.with_about("threads", threads.to_string());
     }

@@ -59,6 +59,7 @@ impl Plan {
         let start = Instant::now();
         let mut run = Run { plan: self, reporter, manifest: Manifest::open(&self.output), made: Vec::new() };
         run.make_folders()?;
+        run.warn_of_left_over();
         let moved = run.move_frames()?;
         let frames = self.frames().filter(|f| needs_render(f, &moved)).collect::<Vec<_>>();
         let converts =
@@ -129,6 +130,18 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
+    /// Whoever takes all of `frames/*.exr` for the turntable would be surprised by these.
+    fn warn_of_left_over(&self) {
+        let left = self.plan.left_over();
+        if let (Some(first), count) = (left.first(), left.len()) {
+            let (folder, first) = (self.plan.output.display(), first.display());
+            let text = format!(
+                "{folder}: {count} frames are none of this turntable's, from {first} on; nothing uses them"
+            );
+            self.reporter.event(&Event::Warning(&text));
+        }
+    }
+
     /// Copies frames that are there under another number; returns those that found their place.
     ///
     /// A frame must not be overwritten while another still waits to be copied from it. Where frames
@@ -149,6 +162,7 @@ impl<'a> Run<'a> {
                     let (step, from) = waiting.swap_remove(index);
                     let bytes = std::fs::read(from).map_err(|e| TurntableError::io(from, "read", e))?;
                     whole_file::write_whole(self.path(step), &bytes)?;
+                    self.manifest.record(&step.output, &step.digest)?;
                     self.made(&step.output);
                     moved.push(step);
                 }
@@ -196,6 +210,7 @@ impl<'a> Run<'a> {
             self.reporter.event(&Event::FrameBegins { number, index, of });
             let watch = Watch { reporter: self.reporter, index, of };
             let report = self.render_frame(&mut stage, step, azimuth, &watch)?;
+            self.manifest.record(&step.output, &step.digest)?;
             self.made(&step.output);
             let (seconds, relative_error) = (report.seconds, report.relative_error);
             self.reporter.event(&Event::FrameDone { number, index, of, seconds, relative_error });
@@ -259,8 +274,7 @@ impl<'a> Run<'a> {
         let pipeline = &self.plan.pipeline;
         let mapping = scene::tone_mapping(&pipeline.tone);
         let background = background_bytes(&mapping);
-        let (count, render) = (pipeline.turntable.frames, &pipeline.render);
-        let mut sheet = ContactSheet::new(settings, count, render.width, render.height, background);
+        let mut sheet = ContactSheet::new(settings, pipeline.turntable.frames, &pipeline.render, background);
         for frame in self.plan.frames() {
             let StepKind::Frame { number, .. } = frame.kind else { continue };
             let picture = frame_file::read_beauty(&self.path(frame))?;

@@ -3,7 +3,7 @@
 use hair_render::Preview;
 
 use crate::digits;
-use crate::schema::Sheet;
+use crate::schema::{Render, Sheet};
 
 /// A contact sheet of previews of one size, filled row by row, numbered from 1.
 pub(crate) struct ContactSheet {
@@ -15,11 +15,13 @@ pub(crate) struct ContactSheet {
 }
 
 impl ContactSheet {
-    /// An empty sheet for `count` frames of `width` x `height`; `background` shows in the gaps.
-    pub fn new(sheet: &Sheet, count: u32, width: u32, height: u32, background: [u8; 3]) -> Self {
-        let columns =
-            sheet.columns.unwrap_or_else(|| about_square(count, width, height)).clamp(1, count.max(1));
-        let (across, down) = size(sheet.gap, count, columns, (width, height));
+    /// An empty sheet for `count` frames; `background` shows in the gaps.
+    pub fn new(sheet: &Sheet, count: u32, render: &Render, background: [u8; 3]) -> Self {
+        let (width, height) = (render.width, render.height);
+        let columns = columns_of(sheet, count, width, height);
+        // The pipeline's check keeps both far below what 32 bits hold.
+        let (across, down) = size_of(sheet, count, render);
+        let (across, down) = (across as u32, down as u32);
         let [r, g, b] = background;
         let rgba = [r, g, b, 255].repeat(across as usize * down as usize);
         let picture = Preview { width: across, height: down, rgba };
@@ -72,6 +74,20 @@ impl ContactSheet {
     }
 }
 
+fn columns_of(sheet: &Sheet, count: u32, width: u32, height: u32) -> u32 {
+    sheet.columns.unwrap_or_else(|| about_square(count, width, height)).clamp(1, count.max(1))
+}
+
+/// Width and height of the sheet of a pipeline, in pixels.
+pub(crate) fn size_of(sheet: &Sheet, count: u32, render: &Render) -> (u64, u64) {
+    let (width, height) = (render.width.max(1), render.height.max(1));
+    let columns = u64::from(columns_of(sheet, count, width, height));
+    let rows = u64::from(count).div_ceil(columns).max(1);
+    let side =
+        |cells: u64, cell: u32| u64::from(sheet.gap) + cells * u64::from(cell.saturating_add(sheet.gap));
+    (side(columns, width), side(rows, height))
+}
+
 /// How many columns bring the sheet nearest to a square.
 fn about_square(count: u32, width: u32, height: u32) -> u32 {
     let off = |columns: u32| {
@@ -84,19 +100,18 @@ fn about_square(count: u32, width: u32, height: u32) -> u32 {
     (1..=count.max(1)).rev().min_by(|&a, &b| off(a).total_cmp(&off(b))).unwrap_or(1)
 }
 
-fn size(gap: u32, count: u32, columns: u32, cell: (u32, u32)) -> (u32, u32) {
-    let rows = count.div_ceil(columns).max(1);
-    (gap + columns * (cell.0 + gap), gap + rows * (cell.1 + gap))
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn cell(width: u32, height: u32) -> Render {
+        Render { width, height, ..Render::default() }
+    }
+
     #[test]
     fn frames_stand_in_rows() {
         let settings = Sheet { columns: Some(2), gap: 1, labels: false, ..Sheet::default() };
-        let mut sheet = ContactSheet::new(&settings, 3, 4, 2, [9, 9, 9]);
+        let mut sheet = ContactSheet::new(&settings, 3, &cell(4, 2), [9, 9, 9]);
         for number in 1..=3 {
             sheet.place(number, &Preview { width: 4, height: 2, rgba: vec![number as u8 * 50; 32] });
         }
@@ -120,7 +135,7 @@ mod tests {
     #[test]
     fn labels_mark_the_corner_and_nothing_else() {
         let settings = Sheet { gap: 0, columns: Some(1), ..Sheet::default() };
-        let mut sheet = ContactSheet::new(&settings, 1, 220, 220, [0; 3]);
+        let mut sheet = ContactSheet::new(&settings, 1, &cell(220, 220), [0; 3]);
         sheet.place(1, &Preview { width: 220, height: 220, rgba: [0, 0, 0, 255].repeat(220 * 220) });
         let picture = sheet.finish();
         let lit: Vec<usize> = (0..220 * 220).filter(|i| picture.rgba[i * 4] != 0).collect();

@@ -1,10 +1,12 @@
 //! YAML to [`Pipeline`] and places in the text; the only module that knows the YAML library.
 
+use std::collections::BTreeSet;
+
 use serde::de::{DeserializeSeed, Deserializer, Error as _, IgnoredAny, MapAccess, SeqAccess, Visitor};
 use serde_yaml::Value;
 
-use crate::nearest::nearest;
 use crate::schema::Pipeline;
+use crate::yaml_words;
 
 /// A place in a text, both counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -26,10 +28,47 @@ pub(crate) fn parse(text: &str) -> Result<Pipeline, YamlFault> {
     if text.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
         return Ok(Pipeline::default());
     }
-    serde_yaml::from_str(text).map_err(|error| YamlFault {
-        place: error.location().map(|l| Place { line: l.line(), column: l.column() }),
-        message: in_words(&error),
+    check_nesting(text)?;
+    let fault = |error: &serde_yaml::Error| YamlFault { place: place_of(error), message: in_words(error) };
+    serde_yaml::from_str(text).map_err(|error| match second_of_a_pair(text) {
+        // The library places a doubled key at the beginning of the mapping it is in.
+        Some(place) if error.to_string().contains("duplicate field") => {
+            YamlFault { place: Some(place), ..fault(&error) }
+        }
+        _ => fault(&error),
     })
+}
+
+/// The library's message without its place, which is told apart, in plain words.
+fn in_words(error: &serde_yaml::Error) -> String {
+    let full = error.to_string();
+    let cut = full.rfind(" at line ").filter(|_| error.location().is_some());
+    yaml_words::plain(&full[..cut.unwrap_or(full.len())])
+}
+
+fn place_of(error: &serde_yaml::Error) -> Option<Place> {
+    error.location().map(|l| Place { line: l.line(), column: l.column() })
+}
+
+/// Brackets deeper than this are an attack: the library takes quadratic time for them.
+const DEEPEST: usize = 128;
+
+fn check_nesting(text: &str) -> Result<(), YamlFault> {
+    let mut depth = 0_usize;
+    for (index, line) in text.lines().enumerate() {
+        for (column, c) in line.chars().enumerate() {
+            match c {
+                '[' | '{' => depth += 1,
+                ']' | '}' => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            if depth > DEEPEST {
+                let place = Some(Place { line: index + 1, column: column + 1 });
+                return Err(YamlFault { place, message: format!("more than {DEEPEST} brackets are open") });
+            }
+        }
+    }
+    Ok(())
 }
 
 /// The same pipeline with `path=value` settings laid over it, each as `render.spp=4`.
@@ -46,6 +85,7 @@ pub(crate) fn parse_with(text: &str, settings: &[String]) -> Result<Pipeline, Ya
         let fault = |message: String| place_of_none(format!("--set {setting}: {message}"));
         let (path, value) =
             setting.split_once('=').ok_or_else(|| fault("expected `key.key=value`".into()))?;
+        check_nesting(value).map_err(|f| fault(f.message))?;
         let value: Value = serde_yaml::from_str(value).map_err(|e| fault(in_words(&e)))?;
         lay(&mut tree, path.trim(), value).map_err(fault)?;
         pipeline = serde_yaml::from_value(tree.clone()).map_err(|e| fault(in_words(&e)))?;
@@ -78,38 +118,13 @@ fn lay(tree: &mut Value, path: &str, value: Value) -> Result<(), String> {
     Ok(())
 }
 
-/// The library's message without its place, which is told apart, and with the right name of a
-/// mistyped one.
-fn in_words(error: &serde_yaml::Error) -> String {
-    let full = error.to_string();
-    let text = match full.rfind(" at line ") {
-        Some(cut) if error.location().is_some() => &full[..cut],
-        _ => full.as_str(),
-    };
-    let Some((before, rest)) = split_unknown(text) else { return text.to_owned() };
-    let mut quoted = rest.split('`').skip(1).step_by(2);
-    let unknown = quoted.next().unwrap_or_default();
-    let known: Vec<&str> = quoted.collect();
-    let list = known.join("`, `");
-    let kind = if text.contains("unknown variant") { "word" } else { "key" };
-    match nearest(unknown, known.iter().copied()) {
-        Some(meant) => format!("{before}unknown {kind} `{unknown}`, did you mean `{meant}`?"),
-        None => format!("{before}unknown {kind} `{unknown}`, expected one of `{list}`"),
-    }
-}
-
-fn split_unknown(text: &str) -> Option<(&str, &str)> {
-    let at = text.find("unknown field `").or_else(|| text.find("unknown variant `"))?;
-    Some((&text[..at], &text[at..]))
-}
-
 /// Where the value at `path` (keys and list indices) stands in `text`.
 ///
 /// The parser itself is asked: it is sent down the path and refused there, and it says where.
 pub(crate) fn locate(text: &str, path: &[&str]) -> Option<Place> {
     let error = Descent { path }.deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
     let arrived = error.to_string().contains(ARRIVED);
-    error.location().filter(|_| arrived).map(|l| Place { line: l.line(), column: l.column() })
+    place_of(&error).filter(|_| arrived)
 }
 
 const ARRIVED: &str = "\u{1}arrived";
@@ -163,6 +178,92 @@ impl<'de> Visitor<'de> for Descent<'_> {
     }
 }
 
+/// Where a key stands that its mapping has already.
+fn second_of_a_pair(text: &str) -> Option<Place> {
+    let error = Twins.deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
+    let found = error.to_string().contains(ARRIVED);
+    place_of(&error).filter(|_| found)
+}
+
+/// Goes through everything and fails at the first key that comes twice.
+struct Twins;
+
+impl<'de> DeserializeSeed<'de> for Twins {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_any(self)
+    }
+}
+
+impl<'de> Visitor<'de> for Twins {
+    type Value = ();
+
+    fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str("anything")
+    }
+
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
+        let mut seen = BTreeSet::new();
+        while map.next_key_seed(NewKey(&mut seen))?.is_some() {
+            map.next_value_seed(Twins)?;
+        }
+        Ok(())
+    }
+
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
+        while list.next_element_seed(Twins)?.is_some() {}
+        Ok(())
+    }
+
+    fn visit_bool<E: serde::de::Error>(self, _: bool) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_i64<E: serde::de::Error>(self, _: i64) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_u64<E: serde::de::Error>(self, _: u64) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_f64<E: serde::de::Error>(self, _: f64) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_str<E: serde::de::Error>(self, _: &str) -> Result<(), E> {
+        Ok(())
+    }
+
+    fn visit_unit<E: serde::de::Error>(self) -> Result<(), E> {
+        Ok(())
+    }
+}
+
+/// A key, if its mapping does not have it yet.
+struct NewKey<'s>(&'s mut BTreeSet<String>);
+
+impl<'de> DeserializeSeed<'de> for NewKey<'_> {
+    type Value = ();
+
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_str(self)
+    }
+}
+
+impl Visitor<'_> for NewKey<'_> {
+    type Value = ();
+
+    fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
+        f.write_str("a key")
+    }
+
+    fn visit_str<E: serde::de::Error>(self, key: &str) -> Result<(), E> {
+        if self.0.insert(key.to_owned()) { Ok(()) } else { Err(E::custom(ARRIVED)) }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -198,7 +299,13 @@ mod tests {
         assert_eq!(fault("render:\n  width: 4\n  spp: many\n").0, 3);
         assert_eq!(fault("render:\n  width: 4\n  spp: -1\n").0, 3);
         assert_eq!(fault("material:\n  color: [1, 2]\n").0, 2);
-        assert!(fault("name: a\nname: b\n").1.contains("duplicate"));
+        let (line, words) = fault("render:\n  spp: 4\n  seed: 1\n  spp: 5\n");
+        assert_eq!((line, &*words), (4, "render: the key `spp` is there twice"));
+        assert_eq!(fault("render: 1.5\n").1, "render: is a number `1.5`, expected keys and values");
+        assert_eq!(
+            fault("render: {spp: -4}\n").1,
+            "render.spp: is a whole number `-4`, expected a whole number in 0..=4294967295"
+        );
         assert!(fault("render: [\n").0 <= 2);
     }
 
@@ -237,8 +344,25 @@ mod tests {
     }
 
     #[test]
+    fn hostile_texts_end_soon() {
+        assert!(fault(&format!("convert: {}", "[".repeat(100_000))).1.contains("brackets are open"));
+        assert!(fault(&format!("convert: {}a", "- ".repeat(100_000))).0 == 1);
+        let mut bomb = "a0: &a0 [x, x, x, x, x, x, x, x, x, x]\n".to_owned();
+        for i in 1..30 {
+            bomb += &format!("a{i}: &a{i} [{}]\n", vec![format!("*a{}", i - 1); 10].join(", "));
+        }
+        // Under a known key too: the library counts what aliases repeat.
+        assert!(parse(&bomb).is_err());
+        assert!(parse_with("version: 1\n", &[format!("convert={}", "[".repeat(100_000))]).is_err());
+        let aliases = "lights: {area: [&a {size: [1, 2]}, *a]}\n";
+        assert_eq!(parse(aliases).unwrap().lights.area[1].size, [1.0, 2.0]);
+    }
+
+    #[test]
     fn an_empty_text_is_a_pipeline_that_says_nothing() {
         assert_eq!(parse("").unwrap(), Pipeline::default());
         assert_eq!(parse("# only a comment\n").unwrap(), Pipeline::default());
+        assert_eq!(parse("---\n").unwrap(), Pipeline::default());
+        assert_eq!(parse("render:\nlights:\n  # nothing\n").unwrap(), Pipeline::default());
     }
 }
