@@ -15,7 +15,7 @@ pub(crate) fn path(root: Vec3, id: u32, seed: u64, length: f32) -> Vec<Vec3> {
     let height = (root.y / head::HEAD_RADII.y).max(0.0);
     let lift = 0.0015 + 0.010 * chance("lift") * (0.35 + height) + 0.004 * height;
     let sway = Vec3::new(chance("sway x") - 0.5, 0.0, chance("sway z") - 0.5) * 0.22;
-    let side = if root.x + 0.006 * (chance("part") - 0.5) < 0.0 { -1.0 } else { 1.0 };
+    let side = side(root, id, seed);
 
     let step = length / STEPS as f32;
     let (mut point, mut direction) = (root, (head::normal(root) + comb(root, side) * 0.9).normalize());
@@ -32,6 +32,11 @@ pub(crate) fn path(root: Vec3, id: u32, seed: u64, length: f32) -> Vec<Vec3> {
         points.push(point);
     }
     points
+}
+
+/// The side of the parting a strand falls to: -1 or 1. Close to the parting it is a matter of chance.
+pub(crate) fn side(root: Vec3, id: u32, seed: u64) -> f32 {
+    if root.x + 0.006 * (random(seed, id, "part") - 0.5) < 0.0 { -1.0 } else { 1.0 }
 }
 
 /// Where the comb pulls at `point`: along the head, away from the parting and the face, fading out

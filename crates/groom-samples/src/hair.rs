@@ -101,8 +101,9 @@ fn locks(options: &Options, shape: &Shape) -> Vec<Lock> {
 fn strand(options: &Options, shape: &Shape, locks: &[Lock], id: u32, root: Vec3) -> Vec<Vec3> {
     let length = shape.length * (0.78 + 0.3 * random(options.seed, id, "length"));
     let mut points = grow::path(root, id, options.seed, length);
-    // Where two locks meet across the parting a strand stays on its own side.
-    let own_side = |lock: &&Lock| lock.root.x * root.x >= 0.0;
+    // Where two locks meet across the parting a strand stays with those that fall to its own side.
+    let side = grow::side(root, id, options.seed);
+    let own_side = |lock: &&Lock| grow::side(lock.root, lock.id, options.seed) == side;
     let near = |a: &&Lock, b: &&Lock| a.root.distance_squared(root).total_cmp(&b.root.distance_squared(root));
     let lock = locks.iter().filter(own_side).min_by(near);
     let Some(lock) = lock else { return points };
