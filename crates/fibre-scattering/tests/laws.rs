@@ -114,6 +114,23 @@ proptest! {
     }
 }
 
+/// Which way the scales of real hair turn each lobe: R nearer to the root, TT and TRT to the tip.
+#[test]
+fn a_positive_tilt_turns_r_to_the_root_and_the_others_to_the_tip() {
+    let (theta_o, alpha) = (0.35_f64, 3.0_f32.to_radians());
+    let parameters = HairParameters { beta_m: 0.03, beta_n: 0.9, alpha, ..HairParameters::default() };
+    let scatter =
+        HairBcsdf::new(&parameters).unwrap().at(support::single(support::direction(theta_o, 0.0)), 0.2);
+    for (lobe, turn) in [(0, -2.0), (1, 1.0), (2, 4.0)] {
+        // An azimuth that every lobe reaches: only the inclination of the peak is asked for.
+        let value = |theta: f64| scatter.evaluate(support::single(support::direction(theta, 2.0))).0[lobe].x;
+        let places = (-1500..1500).map(|i| f64::from(i) * 1e-3);
+        let peak = places.max_by(|&a, &b| value(a).total_cmp(&value(b))).unwrap();
+        let expected = -theta_o + turn * f64::from(alpha);
+        assert!((peak - expected).abs() < 5e-3, "lobe {lobe}: {peak}, not {expected}");
+    }
+}
+
 /// At one offset the model is not reciprocal: its attenuations see `wo` and not `wi`. Averaged over
 /// offsets, without tilt, it is where both inclinations have the same size.
 #[test]
