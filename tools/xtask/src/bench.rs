@@ -5,7 +5,13 @@ use anyhow::Result;
 use crate::shell::{cargo, step};
 
 /// Every bench program of the workspace, low to high.
-const BENCHES: [(&str, &str); 0] = [];
+const BENCHES: [(&str, &str); 5] = [
+    ("cyhair", "read"),
+    ("groom-formats", "convert"),
+    ("fibre-scattering", "scattering"),
+    ("strand-tracing", "rays"),
+    ("hair-render-cli", "straight_hair"),
+];
 
 /// Runs all of them in a release build.
 pub fn all() -> Result<()> {
