@@ -9,7 +9,7 @@ const COLORS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00"
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 420.0;
 const LEFT: f64 = 70.0;
-const RIGHT: f64 = 16.0;
+const RIGHT: f64 = 24.0;
 const TOP: f64 = 14.0;
 const BOTTOM: f64 = 48.0;
 
@@ -150,9 +150,9 @@ fn push_guide(out: &mut String, slope: f64, x_axis: &Axis, y_axis: &Axis) {
     );
     let _ = writeln!(
         out,
-        "<text class=\"note\" x=\"{:.2}\" y=\"{:.2}\" text-anchor=\"end\">slope {slope}</text>",
-        x2 - 6.0,
-        y2 - 14.0
+        "<text class=\"note\" x=\"{:.2}\" y=\"{:.2}\">slope {slope}</text>",
+        x1 + 6.0,
+        y1 - 4.0
     );
 }
 

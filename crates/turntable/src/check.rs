@@ -7,7 +7,7 @@ use hair_render::Aov;
 
 use crate::error::Fault;
 use crate::nearest::nearest;
-use crate::schema::{EnvironmentSource, Pipeline};
+use crate::schema::{Attributes, EnvironmentSource, Pipeline};
 use crate::{sheet, yaml};
 
 /// A picture of more pixels than this is taken for a slip: it would need gigabytes.
@@ -24,6 +24,7 @@ pub(crate) fn faults(pipeline: &Pipeline, file: &Path, text: &str) -> Vec<Fault>
     let base = file.parent().unwrap_or(Path::new(""));
     let mut check = Check { base, found: Vec::new() };
     check.groom(pipeline);
+    check.attributes(&pipeline.attributes);
     check.outputs(pipeline);
     check.material(pipeline);
     check.lights(pipeline);
@@ -109,7 +110,9 @@ impl Check<'_> {
             self.color("mesh.albedo", Some(mesh.albedo), 1.0);
             self.unit("mesh.meters_per_unit", mesh.meters_per_unit);
         }
-        let attributes = &pipeline.attributes;
+    }
+
+    fn attributes(&mut self, attributes: &Attributes) {
         self.need(attributes.stride != Some(0), "attributes.stride", 0, "at least 1");
         self.need(attributes.max_strands != Some(0), "attributes.max_strands", 0, "at least 1");
         self.unit("attributes.scale", attributes.scale.map(f64::from));

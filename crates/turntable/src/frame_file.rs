@@ -86,6 +86,11 @@ pub(crate) fn read_beauty(path: &Path) -> Result<Frame, TurntableError> {
     let (_, pixels) = image.layer_data.channel_data.pixels;
     let size = image.layer_data.size;
     let (beauty, alpha) = pixels.into_iter().unzip();
+    Ok(unmeasured((size.0 as u32, size.1 as u32), beauty, alpha))
+}
+
+/// A picture without figures, for tone mapping.
+pub(crate) fn unmeasured((width, height): (u32, u32), beauty: Vec<Vec3>, alpha: Vec<f32>) -> Frame {
     let report = FrameReport {
         seconds: 0.0,
         spp: 0,
@@ -98,7 +103,7 @@ pub(crate) fn read_beauty(path: &Path) -> Result<Frame, TurntableError> {
         rel_mse: None,
         relative_error: None,
     };
-    Ok(Frame { width: size.0 as u32, height: size.1 as u32, beauty, alpha, passes: Vec::new(), report })
+    Frame { width, height, beauty, alpha, passes: Vec::new(), report }
 }
 
 #[cfg(test)]

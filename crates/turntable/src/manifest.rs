@@ -44,17 +44,18 @@ impl Manifest {
     /// `None` when it was never made.
     pub fn holds(&self, output: &Path, digest: &Digest) -> Option<bool> {
         let entry = self.made.get(&key(output))?;
-        if entry.digest != digest.as_str() {
-            return Some(false);
-        }
-        Some(content(&self.folder.join(output)).is_ok_and(|found| found == entry.content))
+        Some(entry.digest == digest.as_str() && self.is_as_written(output, entry))
+    }
+
+    fn is_as_written(&self, output: &Path, entry: &Entry) -> bool {
+        content(&self.folder.join(output)).is_ok_and(|found| found == entry.content)
     }
 
     /// Whether `output` still has the bytes that were written for `digest`; `None` when nobody wrote
     /// down which those were.
     pub fn vouches(&self, output: &Path, digest: &str) -> Option<bool> {
         let entry = self.made.get(&key(output)).filter(|entry| entry.digest == digest)?;
-        Some(content(&self.folder.join(output)).is_ok_and(|found| found == entry.content))
+        Some(self.is_as_written(output, entry))
     }
 
     /// Writes down that `output` was just made from `digest`.

@@ -319,9 +319,9 @@ fn text_of(file: &Path) -> Result<String, TurntableError> {
     let bytes = std::fs::read(file).map_err(|e| TurntableError::io(file, "read", e))?;
     String::from_utf8(bytes).map_err(|error| {
         let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let line = before.split(|&b| b == b'\n');
-        let place =
-            line.clone().last().map(|last| (line.count(), String::from_utf8_lossy(last).chars().count() + 1));
+        let lines = before.split(|&b| b == b'\n');
+        let column = |last| String::from_utf8_lossy(last).chars().count() + 1;
+        let place = lines.clone().next_back().map(|last| (lines.count(), column(last)));
         let message = format!("byte {} is not UTF-8, as YAML has to be", before.len());
         TurntableError::Pipeline(vec![Fault { file: file.to_owned(), place, key: String::new(), message }])
     })

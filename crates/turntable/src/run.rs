@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use groom::Groom;
 use groom_formats::WriteOptions;
-use hair_render::{Frame, FrameReport, Metadata, Progress};
+use hair_render::{FrameReport, Metadata, Progress};
 use serde::Serialize;
 
 use crate::frame_file::{self, FrameHeader};
@@ -326,20 +326,7 @@ impl<'a> Run<'a> {
 
 /// The background as it comes out of the tone mapping.
 fn background_bytes(mapping: &hair_render::ToneMapping) -> [u8; 3] {
-    let report = FrameReport {
-        seconds: 0.0,
-        spp: 0,
-        seed: 0,
-        threads: 0,
-        samples: 0,
-        closest_rays: 0,
-        shadow_rays: 0,
-        rejected_samples: 0,
-        rel_mse: None,
-        relative_error: None,
-    };
-    let (beauty, alpha) = (vec![glam::Vec3::ZERO], vec![0.0]);
-    let empty = Frame { width: 1, height: 1, beauty, alpha, passes: Vec::new(), report };
+    let empty = frame_file::unmeasured((1, 1), vec![glam::Vec3::ZERO], vec![0.0]);
     let rgba = hair_render::tone_map(&empty, mapping).rgba;
     [rgba[0], rgba[1], rgba[2]]
 }

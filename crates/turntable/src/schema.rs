@@ -147,7 +147,7 @@ pub struct Attributes {
 pub struct Material {
     /// Colour of many strands seen together, linear Rec. 709, 0..1.
     pub color: Option<[f32; 3]>,
-    /// Pigment: 0 white, 0.25 blond, 0.5 brown, 1 black.
+    /// Pigment, perceptually even: 0 white, 0.1 to 0.3 blond, 1 black.
     pub melanin: Option<f32>,
     /// Share of red pigment, 0..1; needs `melanin`.
     pub redness: Option<f32>,
