@@ -27,7 +27,8 @@ fn rows() -> Option<Vec<Row>> {
     let path = data.join("../oracles/hair_mitsuba3.csv");
     let Ok(text) = std::fs::read_to_string(&path) else {
         // Past the harness, which keeps the words of tests that pass to itself.
-        writeln!(std::io::stderr(), "skipped: {} is missing", path.display()).unwrap();
+        let mut stderr = std::io::stderr();
+        writeln!(stderr, "skipped: {} is missing", path.display()).unwrap();
         return None;
     };
     Some(text.lines().skip(1).map(row).collect())

@@ -61,6 +61,9 @@ impl Camera {
         elevation: f64,
         vertical_fov: f64,
     ) -> Result<Self, RenderError> {
+        if distance.is_nan() || distance <= 0.0 {
+            return Err(RenderError::argument("camera distance", distance, "above 0"));
+        }
         let (sin_azimuth, cos_azimuth) = azimuth.sin_cos();
         let (sin_elevation, cos_elevation) = elevation.sin_cos();
         let horizontal = DVec3::new(sin_azimuth, 0.0, cos_azimuth);
@@ -71,7 +74,8 @@ impl Camera {
 
     /// An orbit camera far enough away that the sphere about `bounds` fits the picture, with a
     /// margin of 2 %; `aspect` is width over height. The same distance serves every azimuth, so a
-    /// turntable neither breathes nor cuts. `None` (an empty scene) is framed as a unit sphere.
+    /// turntable neither breathes nor cuts. An empty scene (`None`) and a single point are framed as a
+    /// unit sphere.
     ///
     /// # Errors
     /// As [`Camera::look_at`]; the aspect must be above 0.
@@ -85,10 +89,11 @@ impl Camera {
         if !(aspect > 0.0 && aspect.is_finite()) {
             return Err(RenderError::argument("aspect", aspect, "width over height, above 0"));
         }
-        let (center, radius) = bounds.map_or((DVec3::ZERO, 1.0), |b| (b.center(), b.radius()));
+        let (center, radius) = bounds.map_or((DVec3::ZERO, 0.0), |b| (b.center(), b.radius()));
+        let radius = if radius > 0.0 { radius } else { 1.0 };
         let half_height = 0.5 * vertical_fov;
         let half = half_height.min((half_height.tan() * aspect).atan());
-        let distance = 1.02 * radius.max(f64::MIN_POSITIVE) / half.sin();
+        let distance = 1.02 * radius / half.sin();
         Camera::orbit(center, distance, azimuth, elevation, vertical_fov)
     }
 
@@ -206,5 +211,10 @@ mod tests {
         assert!(look(DVec3::ZERO, DVec3::X, DVec3::Y, 0.0));
         assert!(look(DVec3::NAN, DVec3::X, DVec3::Y, 1.0));
         assert!(!look(DVec3::ZERO, DVec3::X, DVec3::Y, 1.0));
+        for distance in [0.0, -1.0, f64::NAN] {
+            assert!(Camera::orbit(DVec3::ZERO, distance, 0.0, 0.0, 1.0).is_err());
+        }
+        let point = Bounds { min: DVec3::ONE, max: DVec3::ONE };
+        assert!(Camera::fit(Some(point), 0.0, 0.0, 1.0, 1.0).is_ok());
     }
 }

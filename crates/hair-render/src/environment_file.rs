@@ -17,8 +17,11 @@ const MOST_PIXELS: u64 = 1 << 28;
 /// 127 times.
 const HDR_PIXELS_A_BYTE: u64 = 16;
 
-/// The same of an .exr file: no coder in use makes more than a thousand bytes of one.
+/// The same of an .exr file: deflate makes at most 1032 bytes of one.
 const EXR_PIXELS_A_BYTE: u64 = 1024;
+
+/// Bytes that a block of an .exr file may unpack to for each byte of the file: 12 a pixel.
+const EXR_BLOCK_BYTES_A_BYTE: u64 = 12 * EXR_PIXELS_A_BYTE;
 
 /// A picture file that is being read.
 struct Source<'a> {
@@ -77,6 +80,25 @@ fn read_hdr(Source { path, file, bytes }: Source) -> Result<Environment, RenderE
     finish(path, width as usize, height as usize, pixels)
 }
 
+/// Refuses headers for which the decoder would take more memory than the file can fill: it allocates
+/// whole blocks as the header has them, and a failed allocation ends the program.
+fn check_headers(headers: &[exr::meta::header::Header], bytes: u64) -> Result<(), String> {
+    for header in headers {
+        let [size, block] = [header.layer_size, header.max_block_pixel_size()];
+        check_size([size.width() as u64, size.height() as u64], bytes, EXR_PIXELS_A_BYTE)?;
+        let most = bytes.saturating_mul(EXR_BLOCK_BYTES_A_BYTE);
+        let found = [block.width(), block.height(), header.channels.bytes_per_pixel]
+            .iter()
+            .fold(1u64, |product, &factor| product.saturating_mul(factor as u64));
+        if found > most {
+            return Err(format!(
+                "blocks of {found} bytes, expected at most {most} in a file of {bytes} bytes"
+            ));
+        }
+    }
+    Ok(())
+}
+
 fn read_exr(Source { path, file, bytes }: Source) -> Result<Environment, RenderError> {
     use openexr::{ReadChannels, ReadLayers};
     struct Pixels {
@@ -84,15 +106,14 @@ fn read_exr(Source { path, file, bytes }: Source) -> Result<Environment, RenderE
         height: usize,
         values: Vec<Vec3>,
     }
-    let check = |width, height| check_size([width as u64, height as u64], bytes, EXR_PIXELS_A_BYTE);
     let read = openexr::read()
         .no_deep_data()
         .largest_resolution_level()
         .rgb_channels(
-            |size: openexr::Vec2<usize>, _: &openexr::RgbChannels| {
-                // Nothing can be returned here: a size too large stays empty and is refused below.
-                let count = if check(size.width(), size.height()).is_ok() { size.area() } else { 0 };
-                Pixels { width: size.width(), height: size.height(), values: vec![Vec3::ZERO; count] }
+            |size: openexr::Vec2<usize>, _: &openexr::RgbChannels| Pixels {
+                width: size.width(),
+                height: size.height(),
+                values: vec![Vec3::ZERO; size.area()],
             },
             |pixels: &mut Pixels, at, (r, g, b): (f32, f32, f32)| {
                 if let Some(value) = pixels.values.get_mut(at.y() * pixels.width + at.x()) {
@@ -111,7 +132,8 @@ fn read_exr(Source { path, file, bytes }: Source) -> Result<Environment, RenderE
         exr::error::Error::Io(source) => RenderError::Io { path: path.to_owned(), source },
         other => invalid(path, other),
     };
-    let pixels = read.from_buffered(file).map_err(fault)?.layer_data.channel_data.pixels;
-    check(pixels.width, pixels.height).map_err(|e| invalid(path, e))?;
+    let chunks = exr::block::read(file, false).map_err(fault)?;
+    check_headers(chunks.headers(), bytes).map_err(|reason| invalid(path, reason))?;
+    let pixels = read.from_chunks(chunks).map_err(fault)?.layer_data.channel_data.pixels;
     finish(path, pixels.width, pixels.height, pixels.values)
 }

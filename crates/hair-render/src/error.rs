@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use whole_file::WholeFileError;
+
 /// A scene, picture or file that cannot be made as asked.
 #[derive(Debug, thiserror::Error)]
 pub enum RenderError {
@@ -77,5 +79,13 @@ impl RenderError {
     /// A value out of its range.
     pub(crate) fn argument(what: &'static str, found: impl ToString, expected: &'static str) -> Self {
         RenderError::Argument { what, found: found.to_string(), expected }
+    }
+}
+
+impl From<WholeFileError> for RenderError {
+    fn from(fault: WholeFileError) -> Self {
+        let WholeFileError { path, action, source } = fault;
+        let source = std::io::Error::new(source.kind(), format!("could not {action}: {source}"));
+        RenderError::Io { path, source }
     }
 }

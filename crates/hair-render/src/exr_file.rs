@@ -166,11 +166,11 @@ fn write_image(
     image: &openexr::Image<openexr::Layer<AnyChannels<FlatSamples>>>,
 ) -> Result<(), RenderError> {
     let io = |source| RenderError::Io { path: path.to_owned(), source };
-    let mut file = BufWriter::new(WholeFile::create(path).map_err(|e| io(e.into()))?);
+    let mut file = BufWriter::new(WholeFile::create(path)?);
     image.write().to_buffered(&mut file).map_err(|fault| match fault {
         exr::error::Error::Io(source) => io(source),
         other => RenderError::Encode { path: path.to_owned(), reason: other.to_string() },
     })?;
     let file = file.into_inner().map_err(|e| io(e.into_error()))?;
-    file.commit().map_err(|e| io(e.into()))
+    Ok(file.commit()?)
 }

@@ -25,10 +25,8 @@ pub fn check_output(path: &Path, ending: &'static str) -> Result<(), RenderError
         ));
     }
     // Dropped at once, which removes it.
-    match WholeFile::create(path) {
-        Ok(_) => Ok(()),
-        Err(fault) => Err(RenderError::Io { path: path.to_owned(), source: fault.into() }),
-    }
+    WholeFile::create(path)?;
+    Ok(())
 }
 
 #[cfg(test)]

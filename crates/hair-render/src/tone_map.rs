@@ -77,13 +77,13 @@ impl Preview {
     /// [`RenderError::Io`] or [`RenderError::Encode`].
     pub fn write_png(&self, path: &Path) -> Result<(), RenderError> {
         let io = |source| RenderError::Io { path: path.to_owned(), source };
-        let mut file = BufWriter::new(WholeFile::create(path).map_err(|e| io(e.into()))?);
+        let mut file = BufWriter::new(WholeFile::create(path)?);
         image::codecs::png::PngEncoder::new(&mut file)
             .write_image(&self.rgba, self.width, self.height, image::ExtendedColorType::Rgba8)
             .map_err(|fault| RenderError::Encode { path: path.to_owned(), reason: fault.to_string() })?;
         file.flush().map_err(io)?;
         let file = file.into_inner().map_err(|e| io(e.into_error()))?;
-        file.commit().map_err(|e| io(e.into()))
+        Ok(file.commit()?)
     }
 }
 

@@ -59,13 +59,16 @@ fn a_size_that_the_file_cannot_hold_is_refused_before_memory_is_taken() {
     assert!(hdr("-Y 16384 +X 16384").contains("16384 x 16384"), "{}", hdr("-Y 16384 +X 16384"));
     assert!(hdr("-Y 0 +X 7").contains("7 x 0"));
 
-    let mut bytes = studio_exr();
+    let sound = studio_exr();
+    let mut bytes = sound.clone();
     let window = bytes.windows(11).position(|w| w == b"dataWindow\0").unwrap() + 11 + 6 + 4;
-    for far in [16_383i32, i32::MAX - 1] {
+    for far in [16_383i32, 872_415_231, i32::MAX - 1] {
+        bytes.clone_from(&sound);
         for corner in [8, 12] {
+            // First across alone: one block of 16 rows is then all there is to a lie.
             bytes[window + corner..window + corner + 4].copy_from_slice(&far.to_le_bytes());
+            assert!(matches!(open(&bytes), Err(RenderError::InvalidPicture { .. })), "{far}");
         }
-        assert!(matches!(open(&bytes), Err(RenderError::InvalidPicture { .. } | RenderError::Io { .. })));
     }
 }
 
@@ -116,7 +119,9 @@ fn real_pictures() -> Vec<PathBuf> {
 fn the_sun_of_a_real_picture_stands_where_its_pixel_is() {
     let paths = real_pictures();
     if paths.is_empty() {
-        writeln!(std::io::stderr(), "skipped: no HDRI in shared/data/hdri").unwrap();
+        // Past the harness, which keeps the words of tests that pass to itself.
+        let mut stderr = std::io::stderr();
+        writeln!(stderr, "skipped: no HDRI in shared/data/hdri").unwrap();
     }
     for path in paths {
         let picture = image::open(&path).unwrap().into_rgb32f();

@@ -12,14 +12,17 @@ use hair_render::{Aov, AovSet};
 /// Prints the estimated relative error and the seconds on stderr. World space is Y up, in metres;
 /// angles are in degrees. Exit codes: 0 done, 2 could not, 130 stopped by Ctrl-C (no file is left).
 #[derive(Debug, Parser)]
-#[command(version)]
+#[command(
+    version,
+    override_usage = "hair-render [OPTIONS] --output <FILE> <GROOM>\n       hair-render --write-studio <FILE>"
+)]
 pub struct Args {
     /// The groom: .hair, .txt, .gltf, .glb, .usda
     #[arg(required_unless_present = "write_studio")]
     pub groom: Option<PathBuf>,
 
     /// The picture to write (.exr)
-    #[arg(short, long, required_unless_present = "write_studio")]
+    #[arg(short, long, value_name = "FILE", required_unless_present = "write_studio")]
     pub output: Option<PathBuf>,
 
     /// Also write a tone-mapped preview (.png)
@@ -165,7 +168,7 @@ pub struct Fibre {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Input")]
 pub struct Input {
-    /// A mesh beside the hair (.obj, .gltf, .glb), Y up, in metres; may be repeated
+    /// A matte mesh beside the hair (.obj, .gltf, .glb), Y up, in metres; may be repeated
     #[arg(long, value_name = "FILE")]
     pub mesh: Vec<PathBuf>,
     /// What the meshes reflect: one number or r,g,b

@@ -1,6 +1,6 @@
 //! From arguments to a scene and a camera.
 
-use anyhow::{Context, Result};
+use anyhow::{Context, Result, ensure};
 use fibre_scattering::HairParameters;
 use glam::{DVec3, Vec3};
 use groom::UpAxis;
@@ -96,10 +96,13 @@ fn material(fibre: &Fibre) -> HairMaterial {
 }
 
 fn environment(light: &Light) -> Result<Environment> {
+    let (turn, factor) = (light.env_rotate, light.env_intensity);
+    ensure!(turn.is_finite(), "--env-rotate is {turn}, expected degrees");
+    ensure!(factor.is_finite() && factor >= 0.0, "--env-intensity is {factor}, expected at least 0");
     let environment = match (&light.env, light.env_color) {
         (Some(path), _) => Environment::open(path)?,
         (None, Some(color)) => Environment::constant(color)?,
         (None, None) => Environment::studio(STUDIO_WIDTH)?,
     };
-    Ok(environment.rotated(light.env_rotate.to_radians()).scaled(light.env_intensity))
+    Ok(environment.rotated(turn.to_radians()).scaled(factor))
 }

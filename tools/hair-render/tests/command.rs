@@ -66,6 +66,9 @@ fn what_cannot_be_written_is_refused_before_rendering() {
         (&["-o", "a.exr", "--mesh", "none.obj"], "none.obj"),
         (&["-o", "a.exr", "--env", "none.hdr"], "none.hdr"),
         (&["-o", "a.exr", "--aovs", "glint"], "glint"),
+        (&["-o", "a.exr", "--env-intensity=-1"], "--env-intensity"),
+        (&["-o", "a.exr", "--env-rotate", "inf"], "--env-rotate"),
+        (&["-o", "a.exr", "--distance=-2"], "distance"),
         (&["-o", "a.exr", "--no-such-flag"], "--no-such-flag"),
         (&["--png", "a.png"], "--output"),
     ] {
