@@ -76,6 +76,13 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_sources_were_found() {
+        let sources = env!("TURNTABLE_SOURCES");
+        assert_eq!(sources.len(), 16);
+        assert_ne!(sources, "cbf29ce484222325", "the hash of nothing");
+    }
+
+    #[test]
     fn every_ingredient_counts_and_neighbours_stay_apart() {
         let of = |words: &[&str]| words.iter().fold(Ingredients::of("x"), |i, w| i.word(w)).finish();
         let all = [of(&[]), of(&["a"]), of(&["ab"]), of(&["a", "b"]), of(&["b", "a"]), of(&["", "ab"])];
