@@ -85,7 +85,7 @@ fn all_ways_of_finding_light_agree() {
     for (index, scene) in scenes.iter().enumerate() {
         for max_bounces in [0, 256] {
             let run = |light_sampling| {
-                spread(scene, &RenderSettings { light_sampling, max_bounces, ..settings(16, 128) })
+                spread(scene, &RenderSettings { light_sampling, max_bounces, ..settings(16, 64) })
             };
             let (both, error) = run(LightSampling::Both);
             for way in [LightSampling::LightsOnly, LightSampling::ScatteringOnly] {
