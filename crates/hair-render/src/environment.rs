@@ -150,9 +150,11 @@ impl LatLong {
         Ok(LatLong { width, height, pixels })
     }
 
-    /// The pixel at column `x` (which wraps) and row `y` (which stops at the poles).
+    /// The pixel at column `x` (which wraps once, from -1 to the width) and row `y` (which stops at the
+    /// poles).
     pub fn pixel(&self, x: isize, y: isize) -> Vec3 {
-        let x = x.rem_euclid(self.width as isize) as usize;
+        let width = self.width as isize;
+        let x = if x < 0 { x + width } else { x - if x >= width { width } else { 0 } } as usize;
         let y = y.clamp(0, self.height as isize - 1) as usize;
         self.pixels[y * self.width + x]
     }

@@ -16,6 +16,13 @@ pub(crate) struct EnvironmentTable {
     height: usize,
     rows: Vec<f32>,
     pixels: Vec<f32>,
+    /// Where to begin looking in `rows`, and for every row in its part of `pixels`.
+    row_guide: Vec<u32>,
+    pixel_guide: Vec<u32>,
+    /// Heights on the unit sphere at which rows begin, and the last one ends.
+    edges: Vec<f32>,
+    /// Pixels per solid angle, by row.
+    pixels_per_steradian: Vec<f32>,
 }
 
 impl EnvironmentTable {
@@ -23,22 +30,37 @@ impl EnvironmentTable {
     pub fn new(picture: &LatLong) -> Option<Self> {
         let (width, height) = (picture.width, picture.height);
         let mut pixels = Vec::with_capacity((width + 1) * height);
+        let mut pixel_guide = Vec::with_capacity(width * height);
         let mut row_sums = Vec::with_capacity(height);
         for y in 0..height {
             let weights = (0..width).map(|x| pixel_weight(picture, x as isize, y as isize));
             row_sums.push(push_cumulated(&mut pixels, weights) * f64::from(row_height(y, height)));
+            pixel_guide.extend(guide(&pixels[y * (width + 1)..]));
         }
         let mut rows = Vec::with_capacity(height + 1);
         let total = push_cumulated(&mut rows, row_sums.into_iter());
-        (total > 0.0).then_some(EnvironmentTable { width, height, rows, pixels })
+        let row_guide = guide(&rows).collect();
+        let edges = (0..=height).map(|row| (PI * row as f32 / height as f32).cos()).collect();
+        let pixels_per_steradian =
+            (0..height).map(|row| width as f32 / (2.0 * PI * row_height(row, height))).collect();
+        (total > 0.0).then_some(EnvironmentTable {
+            width,
+            height,
+            rows,
+            pixels,
+            row_guide,
+            pixel_guide,
+            edges,
+            pixels_per_steradian,
+        })
     }
 
     /// A direction in the picture's axes and its density per solid angle.
     pub fn sample(&self, u: f32, v: f32) -> Option<(Vec3, f32)> {
-        let (row, row_share, v) = choose(&self.rows, v);
-        let (column, share, u) = choose(self.row(row), u);
-        let edge = |row: usize| (PI * row as f32 / self.height as f32).cos();
-        let y = edge(row) + (edge(row + 1) - edge(row)) * v;
+        let (row, row_share, v) = choose(&self.rows, &self.row_guide, v);
+        let guide = &self.pixel_guide[row * self.width..(row + 1) * self.width];
+        let (column, share, u) = choose(self.row(row), guide, u);
+        let y = self.edges[row] + (self.edges[row + 1] - self.edges[row]) * v;
         let pdf = self.density(row, row_share * share);
         let direction = direction_at((column as f32 + u) / self.width as f32, y);
         (pdf > 0.0).then_some((direction, pdf))
@@ -59,7 +81,7 @@ impl EnvironmentTable {
     }
 
     fn density(&self, row: usize, share: f32) -> f32 {
-        share * self.width as f32 / (2.0 * PI * row_height(row, self.height))
+        share * self.pixels_per_steradian[row]
     }
 }
 
@@ -94,9 +116,31 @@ fn push_cumulated(to: &mut Vec<f32>, weights: impl ExactSizeIterator<Item = f64>
     sum
 }
 
+/// For n equal parts of 0..1, the interval of cumulated shares that each begins in: the search for a
+/// number that starts there ends after about one step (Chen and Asau 1974).
+fn guide(cumulated: &[f32]) -> impl Iterator<Item = u32> + '_ {
+    let parts = cumulated.len() - 1;
+    let mut interval = 0;
+    (0..parts).map(move |part| {
+        let begins = part as f32 / parts as f32;
+        while interval + 1 < parts && cumulated[interval + 1] <= begins {
+            interval += 1;
+        }
+        interval as u32
+    })
+}
+
 /// The interval of cumulated shares that `u` falls into, its share, and how far into it `u` lies (0..1).
-fn choose(cumulated: &[f32], u: f32) -> (usize, f32, f32) {
-    let interval = cumulated.partition_point(|&c| c <= u).clamp(1, cumulated.len() - 1) - 1;
+fn choose(cumulated: &[f32], guide: &[u32], u: f32) -> (usize, f32, f32) {
+    let last = guide.len() - 1;
+    let mut interval = guide[((u * guide.len() as f32) as usize).min(last)] as usize;
+    // Rounding may have put `u` into the part after its own.
+    while interval > 0 && cumulated[interval] > u {
+        interval -= 1;
+    }
+    while interval < last && cumulated[interval + 1] <= u {
+        interval += 1;
+    }
     let (low, share) = (cumulated[interval], cumulated[interval + 1] - cumulated[interval]);
     // Below 1, so that a direction never slips into the next pixel.
     let inside = if share > 0.0 { ((u - low) / share).clamp(0.0, 0.999_999) } else { 0.5 };
@@ -136,6 +180,21 @@ mod tests {
             assert!((direction.length() - 1.0).abs() < 1e-5);
             let again = table.pdf(direction);
             assert!((pdf / again - 1.0).abs() < 1e-4, "{direction} {pdf} {again}");
+        }
+    }
+
+    #[test]
+    fn the_guide_finds_what_a_search_finds() {
+        let environment = picture();
+        let table = EnvironmentTable::new(environment.picture().unwrap()).unwrap();
+        for i in 0..100_000 {
+            let u = (i as f32 * 0.618_034).fract();
+            for (cumulated, guide) in
+                [(&table.rows[..], &table.row_guide[..]), (table.row(2), &table.pixel_guide[32..48])]
+            {
+                let searched = cumulated.partition_point(|&c| c <= u).clamp(1, cumulated.len() - 1) - 1;
+                assert_eq!(choose(cumulated, guide, u).0, searched, "{u}");
+            }
         }
     }
 

@@ -17,7 +17,7 @@ use crate::schema::{
 };
 
 /// Width of the made-up studio's picture: its soft boxes have soft edges, more would only cost.
-const STUDIO_WIDTH: usize = 512;
+const STUDIO_WIDTH: usize = 128;
 
 /// Everything of a scene but its lights' direction, which may turn from frame to frame.
 pub(crate) struct Stage {

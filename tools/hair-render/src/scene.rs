@@ -14,7 +14,7 @@ use moving_mesh::TriangleMesh;
 use crate::args::{Args, Fibre, Input, Light, Up, View};
 
 /// Pixels across the built-in studio.
-pub const STUDIO_WIDTH: usize = 256;
+pub const STUDIO_WIDTH: usize = 128;
 
 /// Reads everything the scene is made of; what is odd about the files comes along in words.
 pub fn describe(args: &Args) -> Result<(SceneDescription, Vec<String>)> {
