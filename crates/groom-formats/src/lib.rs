@@ -3,7 +3,7 @@
 //! | format | feature | read | write |
 //! |---|---|---|---|
 //! | HAIR (cyHair), `.hair` | `hair` | yes | yes |
-//! | [text](crate::text), `.txt` | `text` | yes | yes |
+//! | [`text`], `.txt` | `text` | yes | yes |
 //! | glTF, `.gltf` and `.glb` | `gltf` | | yes, as lines |
 //! | USD, `.usda` | `usda` | | yes, as linear BasisCurves |
 //!

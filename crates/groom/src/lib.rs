@@ -33,7 +33,7 @@ mod transform;
 pub use attribute::{Attribute, Domain, FloatView, Values, Vec3View, names};
 pub use axis::UpAxis;
 pub use error::GroomError;
-pub use groom::Groom;
+pub use groom::{DEFAULT_RADIUS, Groom};
 pub use random::random;
 pub use repair::Repair;
 pub use statistics::{Range, Statistics};

@@ -1,6 +1,6 @@
 //! What a pipeline may say: every key, its type and its default.
 //!
-//! Plain data; reading it from text is [`crate::yaml`]'s work, its ranges are [`crate::check`]'s.
+//! Plain data; reading it from text is `yaml.rs`'s work, its ranges are `check.rs`'s.
 
 use std::path::PathBuf;
 

@@ -16,10 +16,7 @@ const LINE_LIMIT: u64 = 1 << 16;
 /// Some editors put it before the first line.
 const BYTE_ORDER_MARK: &[u8] = "\u{feff}".as_bytes();
 
-/// Radius of a file that has none, in its units: HAIR's default thickness of 1.
-const DEFAULT_RADIUS: f32 = 0.5;
-
-/// Reads a groom from text in the layout of [this module](self); `name` stands for the file in messages.
+/// Reads a groom from text in the layout that the module `text` states; `name` stands for the file in messages.
 ///
 /// # Errors
 /// [`FormatError::Text`] with line and column, [`FormatError::Io`], [`FormatError::TooLarge`].
@@ -132,7 +129,7 @@ impl Parser<'_> {
             _ => 8,
         };
         if used == 3 {
-            self.warnings.push(Warning::NoRadius { radius: DEFAULT_RADIUS });
+            self.warnings.push(Warning::NoRadius { radius: groom::DEFAULT_RADIUS });
         }
         if count > used {
             self.warnings.push(Warning::ExtraColumns { line: self.line, found: count, used });
@@ -160,7 +157,7 @@ impl Parser<'_> {
         groom.meters_per_unit = options.meters_per_unit.unwrap_or(1.0);
         let per_vertex = |values| Attribute { domain: Domain::Vertex, values };
         let radius = if self.radii.is_empty() {
-            Attribute::constant_float(DEFAULT_RADIUS)
+            Attribute::constant_float(groom::DEFAULT_RADIUS)
         } else {
             per_vertex(Values::Float(self.radii))
         };
