@@ -73,5 +73,5 @@ pub use progress::{Progress, Silent};
 pub use render::render;
 pub use scene::Scene;
 pub use settings::{Background, LightSampling, RenderSettings};
-pub use studio::write_studio;
+pub use studio::{STUDIO_WIDTH, write_studio};
 pub use tone_map::{Backdrop, Curve, Preview, ToneMapping, tone_map};

@@ -8,6 +8,10 @@ use glam::Vec3;
 use crate::environment::direction_at;
 use crate::{Environment, Precision, RenderError, exr_file};
 
+/// Pixels across that show the studio well: its soft boxes have soft edges, and a larger picture costs time
+/// to look up.
+pub const STUDIO_WIDTH: usize = 128;
+
 /// One soft box: where its middle is, how far it reaches and how it shines.
 struct SoftBox {
     /// Degrees from +Z towards +X.

@@ -16,9 +16,6 @@ use crate::schema::{
     ToneCurve, Turning,
 };
 
-/// Width of the made-up studio's picture: its soft boxes have soft edges, more would only cost.
-const STUDIO_WIDTH: usize = 128;
-
 /// Everything of a scene but its lights' direction, which may turn from frame to frame.
 pub(crate) struct Stage {
     description: SceneDescription,
@@ -104,7 +101,7 @@ fn environment_of(source: &EnvironmentSource, base: &Path) -> Result<Environment
     let environment = match (&source.file, source.constant) {
         (Some(file), _) => Environment::open(&base.join(file))?,
         (None, Some(radiance)) => Environment::constant(Vec3::from_array(radiance))?,
-        (None, None) => Environment::studio(STUDIO_WIDTH)?,
+        (None, None) => Environment::studio(hair_render::STUDIO_WIDTH)?,
     };
     Ok(environment.rotated(source.rotation.to_radians()).scaled(source.intensity))
 }

@@ -32,7 +32,7 @@ impl Progress for OnBar {
 /// Writes the studio environment.
 pub fn write_studio(path: &Path) -> Result<Outcome> {
     check_output(path, "exr")?;
-    hair_render::write_studio(path, scene::STUDIO_WIDTH)?;
+    hair_render::write_studio(path, hair_render::STUDIO_WIDTH)?;
     Ok(Outcome::Good)
 }
 

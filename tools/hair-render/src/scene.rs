@@ -13,9 +13,6 @@ use moving_mesh::TriangleMesh;
 
 use crate::args::{Args, Fibre, Input, Light, Up, View};
 
-/// Pixels across the built-in studio.
-pub const STUDIO_WIDTH: usize = 128;
-
 /// Reads everything the scene is made of; what is odd about the files comes along in words.
 pub fn describe(args: &Args) -> Result<(SceneDescription, Vec<String>)> {
     let path = args.groom.as_deref().context("no groom given")?;
@@ -102,7 +99,7 @@ fn environment(light: &Light) -> Result<Environment> {
     let environment = match (&light.env, light.env_color) {
         (Some(path), _) => Environment::open(path)?,
         (None, Some(color)) => Environment::constant(color)?,
-        (None, None) => Environment::studio(STUDIO_WIDTH)?,
+        (None, None) => Environment::studio(hair_render::STUDIO_WIDTH)?,
     };
     Ok(environment.rotated(turn.to_radians()).scaled(factor))
 }
