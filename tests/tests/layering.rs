@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Every crate, low to high, with what it may know of the house. A new arrow is added here and in
 /// ARCHITECTURE.md, or not at all.
-const ARROWS: [(&str, &[&str]); 12] = [
+const ARROWS: [(&str, &[&str]); 15] = [
     ("cyhair", &[]),
     ("groom", &[]),
     ("whole-file", &[]),
@@ -17,8 +17,11 @@ const ARROWS: [(&str, &[&str]); 12] = [
     ("fibre-scattering", &[]),
     ("strand-tracing", &[]),
     ("moving-mesh", &[]),
+    ("usd-layer", &[]),
+    ("ogawa", &[]),
+    ("gltf-bytes", &[]),
     ("groom-samples", &["groom"]),
-    ("groom-formats", &["cyhair", "groom", "whole-file"]),
+    ("groom-formats", &["cyhair", "gltf-bytes", "groom", "ogawa", "usd-layer", "whole-file"]),
     ("hair-render", &["fibre-scattering", "groom", "moving-mesh", "strand-tracing", "whole-file"]),
     (
         "turntable",

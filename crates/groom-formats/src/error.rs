@@ -67,6 +67,18 @@ pub enum FormatError {
         /// What would be right.
         expected: &'static str,
     },
+    /// A file of any other format is broken.
+    #[error("{file}: {place}: found {found}, expected {expected}")]
+    Invalid {
+        /// Which file.
+        file: String,
+        /// Where: `byte 12`, `line 3, column 7`, `/Groom/Strands.points`, `strand 4`.
+        place: String,
+        /// What is there.
+        found: String,
+        /// What would be right.
+        expected: String,
+    },
     /// The arrays of a file do not make a groom.
     #[error("{file}: {source}")]
     Groom {
@@ -122,6 +134,20 @@ pub enum FormatError {
 impl FormatError {
     pub(crate) fn io(file: &str, source: io::Error) -> Self {
         FormatError::Io { file: file.to_owned(), source }
+    }
+
+    pub(crate) fn invalid(
+        file: &str,
+        place: impl Into<String>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        FormatError::Invalid {
+            file: file.to_owned(),
+            place: place.into(),
+            found: found.into(),
+            expected: expected.into(),
+        }
     }
 
     pub(crate) fn groom(file: &str, source: GroomError) -> Self {

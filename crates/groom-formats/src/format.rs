@@ -17,66 +17,164 @@ pub enum Format {
     Glb,
     /// USD as text, `.usda`.
     Usda,
+    /// USD as a binary crate, `.usdc`; also what `.usd` is written as.
+    Usdc,
+    /// USD in a package, `.usdz`.
+    Usdz,
+    /// Alembic, `.abc`, with Unreal's groom schema.
+    Alembic,
+    /// Stanford polygons holding strands, `.ply`.
+    Ply,
+    /// USC's hair data, `.data`.
+    Data,
+    /// Wavefront OBJ with its lines, `.obj`.
+    Obj,
+    /// pbrt's curves, `.pbrt`.
+    Pbrt,
+    /// AMD's TressFX, `.tfx`.
+    Tfx,
+    /// MonoHair's own layout, which also ends in `.hair`.
+    MonoHair,
+    /// CT2Hair's strands, `.bin`.
+    Ct2Hair,
+}
+
+/// What there is to say about a format.
+struct Facts {
+    /// The name, which is also the ending of its files.
+    name: &'static str,
+    title: &'static str,
+    feature: &'static str,
+    built: bool,
+    reads: bool,
+    writes: bool,
 }
 
 impl Format {
     /// Every format, in the order the documentation lists them.
-    pub const ALL: [Format; 5] = [Format::Hair, Format::Text, Format::Gltf, Format::Glb, Format::Usda];
+    pub const ALL: [Format; 15] = [
+        Format::Hair,
+        Format::Text,
+        Format::Usda,
+        Format::Usdc,
+        Format::Usdz,
+        Format::Alembic,
+        Format::Gltf,
+        Format::Glb,
+        Format::Ply,
+        Format::Data,
+        Format::Obj,
+        Format::Pbrt,
+        Format::Tfx,
+        Format::MonoHair,
+        Format::Ct2Hair,
+    ];
 
-    /// The name, which is also the file ending: `hair`, `txt`, `gltf`, `glb`, `usda`.
+    fn facts(self) -> Facts {
+        let facts =
+            |name, title, feature, built, reads, writes| Facts { name, title, feature, built, reads, writes };
+        match self {
+            Format::Hair => facts("hair", "cyHair by Cem Yuksel", "hair", cfg!(feature = "hair"), true, true),
+            Format::Text => {
+                facts("txt", "text, as Mitsuba reads it", "text", cfg!(feature = "text"), true, true)
+            }
+            Format::Usda => facts("usda", "USD as text", "usda", cfg!(feature = "usda"), true, true),
+            Format::Usdc => facts("usdc", "USD, binary", "usdc", cfg!(feature = "usdc"), true, true),
+            Format::Usdz => facts("usdz", "USD, packaged", "usdz", cfg!(feature = "usdz"), true, true),
+            Format::Alembic => facts("abc", "Alembic", "alembic", cfg!(feature = "alembic"), true, true),
+            Format::Gltf => facts("gltf", "glTF", "gltf", cfg!(feature = "gltf"), true, true),
+            Format::Glb => facts("glb", "glTF, binary", "gltf", cfg!(feature = "gltf"), true, true),
+            Format::Ply => facts("ply", "PLY strands", "ply", cfg!(feature = "ply"), true, true),
+            Format::Data => facts("data", "USC hair", "data", cfg!(feature = "data"), true, true),
+            Format::Obj => facts("obj", "Wavefront lines", "obj", cfg!(feature = "obj"), true, true),
+            Format::Pbrt => facts("pbrt", "pbrt curves", "pbrt", cfg!(feature = "pbrt"), false, true),
+            Format::Tfx => facts("tfx", "TressFX 3 and 4", "tfx", cfg!(feature = "tfx"), true, false),
+            Format::MonoHair => facts(
+                "monohair",
+                "MonoHair, files end in .hair",
+                "monohair",
+                cfg!(feature = "monohair"),
+                true,
+                false,
+            ),
+            Format::Ct2Hair => facts("bin", "CT2Hair", "ct2hair", cfg!(feature = "ct2hair"), true, false),
+        }
+    }
+
+    /// The name, which is also the file ending: `hair`, `txt`, `usdc` and so on.
     #[must_use]
     pub fn name(self) -> &'static str {
-        match self {
-            Format::Hair => "hair",
-            Format::Text => "txt",
-            Format::Gltf => "gltf",
-            Format::Glb => "glb",
-            Format::Usda => "usda",
-        }
+        self.facts().name
     }
 
-    /// The format called `name`, in any case; `text` is taken for `txt`.
+    /// A few words on what it is.
+    #[must_use]
+    pub fn title(self) -> &'static str {
+        self.facts().title
+    }
+
+    /// The cargo feature it is built with.
+    #[must_use]
+    pub fn feature(self) -> &'static str {
+        self.facts().feature
+    }
+
+    /// The format called `name`, in any case; `text` is taken for `txt`, `usd` for `usdc`, and the names
+    /// of the features for what they name.
     #[must_use]
     pub fn from_name(name: &str) -> Option<Format> {
-        let name = name.to_ascii_lowercase();
-        if name == "text" {
-            return Some(Format::Text);
+        match name.to_ascii_lowercase().as_str() {
+            "text" => Some(Format::Text),
+            "usd" => Some(Format::Usdc),
+            "alembic" => Some(Format::Alembic),
+            "ct2hair" => Some(Format::Ct2Hair),
+            name => Format::ALL.into_iter().find(|format| format.name() == name),
         }
-        Format::ALL.into_iter().find(|format| format.name() == name)
     }
 
-    /// The format a path's ending stands for.
+    /// The format a path's ending stands for; [`Format::sniff`] tells those apart that share one.
     #[must_use]
     pub fn from_path(path: &Path) -> Option<Format> {
         path.extension().and_then(|ending| ending.to_str()).and_then(Format::from_name)
     }
 
+    /// The format of a file whose name promises `self`, after a look at its first bytes: `.usd` is text or a
+    /// crate, and a `.hair` without Yuksel's magic is MonoHair's.
+    #[must_use]
+    pub fn sniff(self, head: &[u8]) -> Format {
+        match self {
+            Format::Usda | Format::Usdc if head.starts_with(b"PXR-USDC") => Format::Usdc,
+            Format::Usda | Format::Usdc if head.starts_with(b"#usda") => Format::Usda,
+            Format::Usda | Format::Usdc if head.starts_with(b"PK\x03\x04") => Format::Usdz,
+            Format::Gltf if head.starts_with(b"glTF") => Format::Glb,
+            other => other,
+        }
+    }
+
     /// Whether grooms can be read from this format by this build.
     #[must_use]
     pub fn can_read(self) -> bool {
-        self.is_built() && matches!(self, Format::Hair | Format::Text)
+        let facts = self.facts();
+        facts.built && facts.reads
     }
 
     /// Whether grooms can be written in this format by this build.
     #[must_use]
     pub fn can_write(self) -> bool {
-        self.is_built()
+        let facts = self.facts();
+        facts.built && facts.writes
+    }
+
+    /// Whether the cargo feature of this format is on.
+    #[must_use]
+    pub fn is_built(self) -> bool {
+        self.facts().built
     }
 
     /// Whether a file of this format is one stream of bytes, fit for a pipe.
     #[must_use]
     pub fn streams(self) -> bool {
         self != Format::Gltf
-    }
-
-    /// Whether the cargo feature of this format is on.
-    fn is_built(self) -> bool {
-        match self {
-            Format::Hair => cfg!(feature = "hair"),
-            Format::Text => cfg!(feature = "text"),
-            Format::Gltf | Format::Glb => cfg!(feature = "gltf"),
-            Format::Usda => cfg!(feature = "usda"),
-        }
     }
 }
 
@@ -98,7 +196,8 @@ mod tests {
             assert_eq!(Format::from_name(&format.to_string()), Some(format));
         }
         assert_eq!(Format::from_name("text"), Some(Format::Text));
-        for path in ["hair", "a.obj", "a.usdc", ".hair", "a."] {
+        assert_eq!(Format::from_name("usd"), Some(Format::Usdc));
+        for path in ["hair", "a.fbx", "a.mp4", ".hair", "a."] {
             assert_eq!(Format::from_path(Path::new(path)), None, "{path}");
         }
     }

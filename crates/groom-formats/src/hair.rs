@@ -33,7 +33,7 @@ pub(crate) fn read(stream: impl Read, name: &str, options: &ReadOptions) -> Resu
     groom.up_axis = options.up_axis.unwrap_or(UpAxis::Z);
     groom.meters_per_unit = options.meters_per_unit.unwrap_or(1.0);
     let warnings = warnings.into_iter().map(Warning::Hair).collect();
-    Ok(Loaded { groom, warnings, repairs, hair: Some(extras) })
+    Ok(Loaded { warnings, repairs, hair: Some(extras), ..Loaded::still(groom) })
 }
 
 /// `cyhair`'s errors of the system are told as such, so that a closed pipe is seen for one.

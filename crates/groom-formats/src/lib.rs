@@ -24,12 +24,33 @@
 
 // Formats share helpers; one format alone does not use them all.
 #![cfg_attr(
-    not(all(feature = "hair", feature = "text", feature = "gltf", feature = "usda")),
+    not(all(
+        feature = "hair",
+        feature = "text",
+        feature = "gltf",
+        feature = "usda",
+        feature = "usdc",
+        feature = "usdz",
+        feature = "alembic",
+        feature = "ply",
+        feature = "data",
+        feature = "obj",
+        feature = "pbrt",
+        feature = "tfx",
+        feature = "monohair",
+        feature = "ct2hair"
+    )),
     allow(dead_code, unused_imports)
 )]
 
+#[cfg(feature = "alembic")]
+mod alembic;
+mod animation;
 mod check;
-#[cfg(any(feature = "gltf", feature = "usda"))]
+#[cfg(feature = "ct2hair")]
+mod ct2hair;
+#[cfg(feature = "data")]
+mod data;
 mod drawable;
 mod error;
 mod format;
@@ -37,23 +58,34 @@ mod format;
 mod gltf;
 #[cfg(feature = "hair")]
 mod hair;
-#[cfg(any(feature = "text", feature = "usda"))]
+#[cfg(feature = "monohair")]
+mod monohair;
+#[cfg(any(feature = "text", feature = "usda", feature = "usdc", feature = "obj", feature = "pbrt"))]
 mod numbers;
+#[cfg(feature = "obj")]
+mod obj;
 mod options;
 mod output;
+#[cfg(feature = "pbrt")]
+mod pbrt;
+#[cfg(feature = "ply")]
+mod ply;
 mod read;
 #[cfg(feature = "text")]
 pub mod text;
+#[cfg(feature = "tfx")]
+mod tfx;
 mod unstored;
-#[cfg(feature = "usda")]
-mod usda;
+#[cfg(any(feature = "usda", feature = "usdc", feature = "usdz"))]
+mod usd;
 mod warning;
 mod write;
 
+pub use animation::{Frame, write_animation};
 pub use error::FormatError;
 pub use format::Format;
-pub use options::{HairExtras, Loaded, ReadOptions, WriteOptions};
+pub use options::{Dialect, HairExtras, Loaded, Look, Mesh, ReadOptions, WriteOptions};
 pub use output::Output;
 pub use read::{read, read_from};
 pub use warning::Warning;
-pub use write::{write, write_to};
+pub use write::{write, write_seekable, write_to};

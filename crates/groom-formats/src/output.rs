@@ -1,7 +1,7 @@
 //! Where a file goes.
 
 use std::fs::{File, OpenOptions};
-use std::io::{self, Write};
+use std::io::{self, Seek, SeekFrom, Write};
 use std::path::Path;
 
 use whole_file::WholeFile;
@@ -37,6 +37,12 @@ impl Output {
         Ok(Output(Kind::Whole(file)))
     }
 
+    /// Whether the file can go back: a device or a named pipe cannot.
+    #[must_use]
+    pub fn can_seek(&self) -> bool {
+        matches!(self.0, Kind::Whole(_))
+    }
+
     /// Puts the finished file in its place.
     ///
     /// # Errors
@@ -65,6 +71,15 @@ impl Write for Output {
         match &mut self.0 {
             Kind::Whole(file) => file.flush(),
             Kind::Device(file) => file.flush(),
+        }
+    }
+}
+
+impl Seek for Output {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        match &mut self.0 {
+            Kind::Whole(file) => file.seek(to),
+            Kind::Device(file) => file.seek(to),
         }
     }
 }

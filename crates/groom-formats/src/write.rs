@@ -1,6 +1,6 @@
 //! From a groom to a path or a stream.
 
-use std::io::{BufWriter, Write};
+use std::io::{BufWriter, Cursor, Seek, Write};
 use std::path::Path;
 
 use groom::Groom;
@@ -25,24 +25,26 @@ pub fn write(groom: &Groom, path: &Path, options: &WriteOptions) -> Result<Vec<W
         expected: read::endings(Format::can_write),
     })?;
     if format == Format::Gltf {
-        return write_gltf(groom, path, &name);
+        return write_gltf(groom, path, &name, options);
     }
-    let (output, warnings) = filled(path, &name, |stream| write_to(format, groom, stream, &name, options))?;
+    let mut output = Output::create(path)?;
+    let warnings = if output.can_seek() {
+        write_seekable(format, groom, &mut output, &name, options)?
+    } else {
+        write_to(format, groom, &mut output, &name, options)?
+    };
     output.commit()?;
     Ok(warnings)
 }
 
 /// Writes `groom` to a stream; `name` stands for it in messages.
 ///
-/// The stream need not be buffered; what is written before an error stays written.
+/// The stream need not be buffered; what is written before an error stays written. Formats that go
+/// back to fill in what they learn at the end (`.usdc`, `.usdz`, `.abc`) are put together in memory first;
+/// [`write_seekable`] spares that.
 ///
 /// # Errors
 /// [`FormatError`], also for a format that is more than one stream ([`Format::streams`]).
-#[cfg_attr(not(feature = "hair"), allow(unused_variables))] // only HAIR has options
-#[cfg_attr(
-    not(any(feature = "hair", feature = "text", feature = "gltf", feature = "usda")),
-    allow(unreachable_code, unused_mut)
-)]
 pub fn write_to(
     format: Format,
     groom: &Groom,
@@ -50,29 +52,105 @@ pub fn write_to(
     name: &str,
     options: &WriteOptions,
 ) -> Result<Vec<Warning>, FormatError> {
-    check::values(groom, name)?;
     let mut stream = BufWriter::with_capacity(BUFFER, stream);
-    let warnings = match format {
-        #[cfg(feature = "hair")]
-        Format::Hair => crate::hair::write(groom, &mut stream, name, options)?,
-        #[cfg(feature = "text")]
-        Format::Text => crate::text::write(groom, &mut stream, name)?,
-        #[cfg(feature = "gltf")]
-        Format::Glb => crate::gltf::write_glb(groom, &mut stream, name)?,
-        #[cfg(feature = "usda")]
-        Format::Usda => crate::usda::write(groom, &mut stream, name)?,
-        other => return Err(unwritable(other, name)),
+    let warnings = if goes_back(format) {
+        let mut file = Cursor::new(Vec::new());
+        let warnings = fill_going_back(format, groom, &mut file, name, options)?;
+        stream.write_all(file.get_ref()).map_err(|e| FormatError::io(name, e))?;
+        warnings
+    } else {
+        fill(format, groom, &mut stream, name, options)?
     };
     stream.flush().map_err(|e| FormatError::io(name, e))?;
     Ok(warnings)
 }
 
+/// As [`write_to`], to a file that can go back.
+///
+/// # Errors
+/// As [`write_to`].
+pub fn write_seekable(
+    format: Format,
+    groom: &Groom,
+    stream: impl Write + Seek,
+    name: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
+    let mut stream = BufWriter::with_capacity(BUFFER, stream);
+    let warnings = if goes_back(format) {
+        fill_going_back(format, groom, &mut stream, name, options)?
+    } else {
+        fill(format, groom, &mut stream, name, options)?
+    };
+    stream.flush().map_err(|e| FormatError::io(name, e))?;
+    Ok(warnings)
+}
+
+fn goes_back(format: Format) -> bool {
+    matches!(format, Format::Usdc | Format::Usdz | Format::Alembic)
+}
+
+#[allow(unused_variables, unreachable_code)] // with features off
+fn fill(
+    format: Format,
+    groom: &Groom,
+    stream: &mut impl Write,
+    name: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
+    refuse_unwritable(format, name)?;
+    check::values(groom, name)?;
+    match format {
+        #[cfg(feature = "hair")]
+        Format::Hair => crate::hair::write(groom, stream, name, options),
+        #[cfg(feature = "text")]
+        Format::Text => crate::text::write(groom, stream, name),
+        #[cfg(feature = "gltf")]
+        Format::Glb => crate::gltf::write_glb(groom, stream, name, options),
+        #[cfg(feature = "usda")]
+        Format::Usda => crate::usd::write::write_usda(groom, stream, name, options),
+        #[cfg(feature = "ply")]
+        Format::Ply => crate::ply::write(groom, stream, name, options),
+        #[cfg(feature = "data")]
+        Format::Data => crate::data::write(groom, stream, name, options),
+        #[cfg(feature = "obj")]
+        Format::Obj => crate::obj::write(groom, stream, name, options),
+        #[cfg(feature = "pbrt")]
+        Format::Pbrt => crate::pbrt::write(groom, stream, name, options),
+        other => Err(unwritable(other, name)),
+    }
+}
+
+#[allow(unused_variables, unreachable_code)] // with features off
+fn fill_going_back(
+    format: Format,
+    groom: &Groom,
+    stream: &mut (impl Write + Seek),
+    name: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
+    refuse_unwritable(format, name)?;
+    check::values(groom, name)?;
+    match format {
+        #[cfg(any(feature = "usdc", feature = "usdz"))]
+        Format::Usdc | Format::Usdz => crate::usd::write::write_crate(groom, format, stream, name, options),
+        #[cfg(feature = "alembic")]
+        Format::Alembic => crate::alembic::write(groom, stream, name, options),
+        other => Err(unwritable(other, name)),
+    }
+}
+
 #[cfg(feature = "gltf")]
-fn write_gltf(groom: &Groom, path: &Path, name: &str) -> Result<Vec<Warning>, FormatError> {
+fn write_gltf(
+    groom: &Groom,
+    path: &Path,
+    name: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
     check::values(groom, name)?;
     let bytes_path = path.with_extension("bin");
     let bytes_name = bytes_path.file_name().unwrap_or_default().as_encoded_bytes();
-    let plan = crate::gltf::Plan::new(groom, Format::Gltf, name)?;
+    let plan = crate::gltf::Plan::new(groom, Format::Gltf, name, options)?;
     let bytes_file = bytes_path.display().to_string();
     let (bytes, ()) = filled(&bytes_path, &bytes_file, |stream| {
         plan.write_bytes(stream).map_err(|e| FormatError::io(&bytes_file, e))
@@ -87,11 +165,12 @@ fn write_gltf(groom: &Groom, path: &Path, name: &str) -> Result<Vec<Warning>, Fo
 }
 
 #[cfg(not(feature = "gltf"))]
-fn write_gltf(_: &Groom, _: &Path, name: &str) -> Result<Vec<Warning>, FormatError> {
+fn write_gltf(_: &Groom, _: &Path, name: &str, _: &WriteOptions) -> Result<Vec<Warning>, FormatError> {
     Err(unwritable(Format::Gltf, name))
 }
 
 /// Runs `body` on a buffered output; what comes back is written but not yet in its place.
+#[cfg(feature = "gltf")]
 fn filled<T>(
     path: &Path,
     name: &str,
@@ -103,9 +182,14 @@ fn filled<T>(
     Ok((output, done))
 }
 
+fn refuse_unwritable(format: Format, name: &str) -> Result<(), FormatError> {
+    if format.can_write() { Ok(()) } else { Err(unwritable(format, name)) }
+}
+
 fn unwritable(format: Format, name: &str) -> FormatError {
     let what = match format {
         Format::Gltf if format.can_write() => "is two files and fits in no stream; use glb",
+        other if other.is_built() => "can be read and not written",
         _ => "is not built into this program (a cargo feature is off)",
     };
     FormatError::Unsupported { file: name.to_owned(), format, what }

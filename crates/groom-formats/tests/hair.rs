@@ -60,7 +60,7 @@ proptest! {
         let bytes = file.to_bytes().unwrap();
         let loaded = from_bytes(Format::Hair, &bytes).unwrap();
         let mut again = Vec::new();
-        let options = WriteOptions { hair: loaded.hair };
+        let options = WriteOptions { hair: loaded.hair, ..WriteOptions::default() };
         groom_formats::write_to(Format::Hair, &loaded.groom, &mut again, "memory", &options).unwrap();
         prop_assert_eq!(again, bytes);
     }

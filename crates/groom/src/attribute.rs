@@ -14,6 +14,12 @@ pub mod names {
     pub const ID: &str = "id";
     /// Texture coordinate of the root on its mesh: vec2 per strand.
     pub const ROOT_UV: &str = "root_uv";
+    /// Which group of strands (brows, lashes, scalp) a strand belongs to: int per strand.
+    pub const GROUP: &str = "group";
+    /// Whether a strand is a guide that others follow, 1 or 0: int per strand.
+    pub const GUIDE: &str = "guide";
+    /// Velocity of a point, in the groom's units per second: vec3 per vertex.
+    pub const VELOCITY: &str = "velocity";
 }
 
 /// What one value of an attribute belongs to.

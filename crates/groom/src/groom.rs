@@ -159,9 +159,9 @@ impl Groom {
         }
         let standard_type = match name.as_str() {
             names::RADIUS | names::TRANSPARENCY => Some("float"),
-            names::COLOR => Some("vec3"),
+            names::COLOR | names::VELOCITY => Some("vec3"),
             names::ROOT_UV => Some("vec2"),
-            names::ID => Some("int"),
+            names::ID | names::GROUP | names::GUIDE => Some("int"),
             _ => None,
         };
         let found = attribute.values.type_name();

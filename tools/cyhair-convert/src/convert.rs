@@ -27,7 +27,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
     }
     let had_ids = loaded.groom.attribute(names::ID).is_some();
     let groom = edit(loaded.groom, args)?;
-    let options = WriteOptions { hair: loaded.hair };
+    let options = WriteOptions { hair: loaded.hair, ..WriteOptions::default() };
     let (lost, output_bytes) = store(&groom, output, format, &options)?;
     // Thinning out gives the strands numbers; nobody misses those.
     let is_missed = |warning: &&Warning| had_ids || !is_about_ids(warning);

@@ -24,7 +24,7 @@ pub(crate) fn load(args: &Args) -> Result<Input> {
         up_axis: args.input_up.map(Into::into),
         meters_per_unit: args.meters_per_unit,
         repair: args.repair,
-        known_len: None,
+        ..ReadOptions::default()
     };
     let (name, loaded, bytes) = if is_stream(&args.input) {
         let name = "standard input".to_owned();

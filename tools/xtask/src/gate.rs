@@ -13,7 +13,10 @@ use crate::shell::{cargo, exists, root, step};
 const DENY: &str = "cargo-deny@0.20.2";
 
 /// Formats of `groom-formats`, each of which must build alone.
-const FORMAT_FEATURES: [&str; 4] = ["hair", "text", "gltf", "usda"];
+const FORMAT_FEATURES: [&str; 14] = [
+    "hair", "text", "gltf", "usda", "usdc", "usdz", "alembic", "ply", "data", "obj", "pbrt", "tfx",
+    "monohair", "ct2hair",
+];
 
 /// Runs every check, the cheap ones first.
 pub fn test() -> Result<()> {

@@ -9,5 +9,7 @@
 mod bytes;
 mod document;
 mod plan;
+mod read;
 
 pub(crate) use plan::{Plan, write_glb};
+pub(crate) use read::read;

@@ -7,7 +7,7 @@ use groom::{Attribute, FloatView, Groom, UpAxis, Vec3View, names};
 
 use crate::drawable::Drawable;
 use crate::gltf::{bytes, document};
-use crate::{Format, FormatError, Warning, unstored};
+use crate::{Format, FormatError, Warning, WriteOptions, unstored};
 
 /// Vertex index that glTF keeps for restarting primitives.
 const RESTART: u64 = u32::MAX as u64;
@@ -40,7 +40,12 @@ impl Colors<'_> {
 }
 
 impl<'a> Plan<'a> {
-    pub(crate) fn new(groom: &'a Groom, format: Format, file: &str) -> Result<Self, FormatError> {
+    pub(crate) fn new(
+        groom: &'a Groom,
+        format: Format,
+        file: &str,
+        _options: &WriteOptions,
+    ) -> Result<Self, FormatError> {
         let mut warnings = Vec::new();
         let drawable = Drawable::new(groom, format, file, &mut warnings)?;
         unstored::left_out(groom, format, &[names::RADIUS, names::COLOR, names::TRANSPARENCY], &mut warnings);
@@ -164,8 +169,9 @@ pub(crate) fn write_glb(
     groom: &Groom,
     stream: &mut impl Write,
     file: &str,
+    options: &WriteOptions,
 ) -> Result<Vec<Warning>, FormatError> {
-    let plan = Plan::new(groom, Format::Glb, file)?;
+    let plan = Plan::new(groom, Format::Glb, file, options)?;
     glb(&plan, stream).map_err(|e| FormatError::io(file, e))?;
     Ok(plan.into_warnings())
 }

@@ -171,7 +171,7 @@ impl Parser<'_> {
         }
         let repairs = if options.repair { groom.repair() } else { Vec::new() };
         let repairs = repairs.iter().map(ToString::to_string).collect();
-        Ok(Loaded { groom, warnings: self.warnings, repairs, hair: None })
+        Ok(Loaded { warnings: self.warnings, repairs, ..Loaded::still(groom) })
     }
 
     fn fault<T>(&self, column: usize, found: String, expected: &'static str) -> Result<T, FormatError> {

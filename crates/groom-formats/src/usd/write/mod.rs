@@ -14,7 +14,9 @@
 //! The curves are polylines, as grooms are, so `type` is `linear`; `basis` and `wrap` then mean nothing
 //! but are authored too, because readers differ on the fallbacks.
 
+mod crate_file;
 mod primvar;
 mod stage;
 
-pub(crate) use stage::write;
+pub(crate) use crate_file::{write as write_crate, write_animation};
+pub(crate) use stage::write as write_usda;

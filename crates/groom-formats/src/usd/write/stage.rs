@@ -7,13 +7,18 @@ use groom::{Groom, UpAxis};
 
 use crate::drawable::Drawable;
 use crate::numbers::{TextOut, shortest};
-use crate::usda::primvar;
-use crate::{Format, FormatError, Warning};
+use crate::usd::write::primvar;
+use crate::{Format, FormatError, Warning, WriteOptions};
 
 /// Indentation of the attributes of the curves.
 pub(super) const INDENT: &[u8] = b"        ";
 
-pub(crate) fn write(groom: &Groom, stream: &mut impl Write, file: &str) -> Result<Vec<Warning>, FormatError> {
+pub(crate) fn write(
+    groom: &Groom,
+    stream: &mut impl Write,
+    file: &str,
+    _options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
     let mut warnings = Vec::new();
     let drawable = Drawable::new(groom, Format::Usda, file, &mut warnings)?;
     refuse_too_wide(drawable, file)?;

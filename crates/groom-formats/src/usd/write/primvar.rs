@@ -7,7 +7,7 @@ use groom::{Attribute, Domain, Values, names};
 
 use crate::drawable::Drawable;
 use crate::numbers::TextOut;
-use crate::usda::stage::{INDENT, end_array, per_vertex, separate, tuple};
+use crate::usd::write::stage::{INDENT, end_array, per_vertex, separate, tuple};
 use crate::{Format, Warning};
 
 /// Names that mean something else to readers of USD: `widths` would win over the curves' own.

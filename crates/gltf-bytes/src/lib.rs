@@ -1,0 +1,1 @@
+//! The bytes behind a glTF document: containers, buffers and accessors, every number checked.

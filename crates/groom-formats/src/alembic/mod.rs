@@ -1,0 +1,7 @@
+//! Alembic.
+
+mod read;
+mod write;
+
+pub(crate) use read::read;
+pub(crate) use write::{write, write_animation};

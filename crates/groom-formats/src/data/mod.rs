@@ -1,0 +1,7 @@
+//! USC hair data.
+
+mod read;
+mod write;
+
+pub(crate) use read::read;
+pub(crate) use write::write;

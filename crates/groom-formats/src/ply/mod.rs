@@ -1,0 +1,7 @@
+//! PLY strands.
+
+mod read;
+mod write;
+
+pub(crate) use read::read;
+pub(crate) use write::write;

@@ -1,0 +1,4 @@
+//! USD: grooms as BasisCurves, in text, crates and packages.
+
+pub(crate) mod read;
+pub(crate) mod write;

@@ -1,0 +1,13 @@
+//! BasisCurves as a groom.
+
+use crate::{Format, FormatError, Loaded, ReadOptions};
+
+pub(crate) fn read(
+    bytes: &[u8],
+    format: Format,
+    name: &str,
+    options: &ReadOptions,
+) -> Result<Loaded, FormatError> {
+    let _ = (bytes, options);
+    Err(FormatError::Unsupported { file: name.to_owned(), format, what: "cannot be read yet" })
+}

@@ -1,0 +1,1 @@
+//! Alembic archives in the Ogawa layout, to the byte, read and written.
