@@ -199,6 +199,6 @@ fn a_failed_write_leaves_the_old_file() {
     let nowhere = folder.path().join("no such folder/a.txt");
     let error = groom_formats::write(&full_groom(), &nowhere, &WriteOptions::default()).unwrap_err();
     assert!(error.to_string().contains("no such folder"), "{error}");
-    let unknown = groom_formats::write(&full_groom(), &folder.path().join("a.abc"), &WriteOptions::default());
+    let unknown = groom_formats::write(&full_groom(), &folder.path().join("a.fbx"), &WriteOptions::default());
     assert!(matches!(unknown, Err(FormatError::UnknownFormat { .. })));
 }
