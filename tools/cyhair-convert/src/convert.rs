@@ -6,13 +6,14 @@ use std::time::Instant;
 
 use anyhow::Result;
 use command_line::progress_bar;
-use groom::{Groom, GroomError, names};
+use groom::{Groom, names};
 use groom_formats::{Format, Output, Warning, WriteOptions, write, write_to};
 use serde_json::json;
 use whole_file::clear_stale;
 
 use crate::args::{Args, is_stream};
 use crate::counted::Counted;
+use crate::edit::edit;
 use crate::load::{Input, load};
 use crate::report;
 
@@ -63,39 +64,6 @@ pub(crate) fn run(args: &Args) -> Result<()> {
 
 fn is_about_ids(warning: &Warning) -> bool {
     matches!(warning, Warning::AttributeLeftOut { name, .. } if name == names::ID)
-}
-
-/// Does what the options ask for, in the order of the help.
-fn edit(mut groom: Groom, args: &Args) -> Result<Groom, GroomError> {
-    if let Some(stride) = args.stride.filter(|&stride| stride > 1) {
-        groom = groom.subsample_by_stride(stride as usize)?;
-    }
-    if let Some(most) = args.max_strands.map(|most| most as usize).filter(|&most| most < groom.strand_count())
-    {
-        groom = groom.subsample_to(most);
-    }
-    if let Some(points) = args.resample {
-        groom = groom.resample_by_count(points as usize)?;
-    }
-    if let Some(factor) = args.scale {
-        groom.scale(factor)?;
-    }
-    if let Some(up) = args.up {
-        groom.turn_to(up.into());
-    }
-    if let Some(color) = args.color {
-        groom.set_color(color)?;
-    }
-    if let (Some(root), Some(tip)) = (args.root_color, args.tip_color) {
-        groom.ramp_color(root, tip)?;
-    }
-    if let Some(width) = args.width {
-        groom.set_width(width)?;
-    }
-    if let (Some(root), Some(tip)) = (args.root_width, args.tip_width) {
-        groom.ramp_width(root, tip)?;
-    }
-    Ok(groom)
 }
 
 /// Writes the groom, and clears away what a killed run left beside it; returns what the format could not hold and how many bytes were written.

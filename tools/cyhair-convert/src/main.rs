@@ -3,6 +3,7 @@
 mod args;
 mod convert;
 mod counted;
+mod edit;
 mod info;
 mod load;
 mod report;
