@@ -46,6 +46,8 @@
 #[cfg(feature = "alembic")]
 mod alembic;
 mod animation;
+#[cfg(any(feature = "text", feature = "usda", feature = "usdc", feature = "obj", feature = "pbrt"))]
+mod blocks;
 mod check;
 #[cfg(feature = "ct2hair")]
 mod ct2hair;

@@ -4,10 +4,10 @@
 
 mod support;
 
-use groom::{Groom, UpAxis, names};
+use groom::{Attribute, Groom, UpAxis, Values, names};
 use groom_formats::{Format, FormatError, ReadOptions, Warning, text};
 use proptest::prelude::*;
-use support::{any_groom, bits, from_bytes, full_groom, to_bytes};
+use support::{any_groom, bits, from_bytes, full_groom, offsets, to_bytes};
 
 proptest! {
     #[test]
@@ -43,12 +43,37 @@ fn layout_is_as_documented() {
     let mut groom = groom("0 0 0 0.5\n1 2.5 -3 0.25\n\n0 0 1 0.5\n");
     let text = |groom: &Groom| String::from_utf8(to_bytes(Format::Text, groom).unwrap().0).unwrap();
     assert_eq!(text(&groom), "0 0 0 0.5\n1 2.5 -3 0.25\n\n0 0 1 0.5\n");
-    groom.set_attribute(names::COLOR, groom::Attribute::constant_vec3([1.0, 0.5, 0.0].into())).unwrap();
+    groom.set_attribute(names::COLOR, Attribute::constant_vec3([1.0, 0.5, 0.0].into())).unwrap();
     assert!(text(&groom).starts_with("0 0 0 0.5 1 0.5 0\n1 2.5 "));
-    groom.set_attribute(names::TRANSPARENCY, groom::Attribute::constant_float(0.0)).unwrap();
+    groom.set_attribute(names::TRANSPARENCY, Attribute::constant_float(0.0)).unwrap();
     assert!(text(&groom).starts_with("0 0 0 0.5 1 0.5 0\n"), "opaque needs no column");
-    groom.set_attribute(names::TRANSPARENCY, groom::Attribute::constant_float(0.125)).unwrap();
+    groom.set_attribute(names::TRANSPARENCY, Attribute::constant_float(0.125)).unwrap();
     assert!(text(&groom).starts_with("0 0 0 0.5 1 0.5 0 0.125\n"));
+}
+
+#[test]
+fn threads_change_nothing() {
+    // Strands longer and shorter than what one thread takes at a time.
+    let lengths: Vec<usize> = (0..300).map(|i| 1 + (i * i * 7) % 97).chain([20_000, 1, 1024, 3]).collect();
+    let points = lengths.iter().sum::<usize>();
+    let position = |i: usize| glam::Vec3::new(i as f32 * 0.37, 1.0 / (i % 99 + 1) as f32, -(i as f32));
+    let mut groom = Groom::new(offsets(&lengths), (0..points).map(position).collect()).unwrap();
+    let colors = (0..lengths.len()).map(|i| glam::Vec3::splat(i as f32 / 7.0)).collect();
+    let domain = groom::Domain::Strand;
+    groom.set_attribute(names::COLOR, Attribute { domain, values: Values::Vec3(colors) }).unwrap();
+    let mut expected = String::new();
+    for (strand, points) in groom.strands().enumerate() {
+        expected.push_str(if strand > 0 { "\n" } else { "" });
+        for p in points {
+            let c = strand as f32 / 7.0;
+            expected.push_str(&format!("{} {} {} 0.5 {c} {c} {c}\n", p.x, p.y, p.z));
+        }
+    }
+    for threads in [1, 2, 7] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        let bytes = pool.install(|| to_bytes(Format::Text, &groom).unwrap().0);
+        assert!(bytes == expected.as_bytes(), "{threads} threads");
+    }
 }
 
 #[test]

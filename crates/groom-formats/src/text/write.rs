@@ -5,13 +5,14 @@ use std::io::Write;
 use glam::Vec3;
 use groom::{Attribute, FloatView, Groom, UpAxis, Vec3View, names};
 
-use crate::numbers::TextOut;
+use crate::blocks::{self, strands_among};
+use crate::numbers::Text;
 use crate::{Format, FormatError, Warning, unstored};
 
 /// What follows the position on a line, each with its leading space.
 enum Column<'a> {
     /// The same everywhere: turned into text once.
-    Constant(Vec<u8>),
+    Constant(Text),
     Float(FloatView<'a>),
     Color(Vec3View<'a>),
 }
@@ -22,21 +23,20 @@ pub(crate) fn write(groom: &Groom, stream: &mut impl Write, file: &str) -> Resul
     }
     let mut warnings = unstored::warnings(groom, Format::Text, UpAxis::Z);
     let columns = columns(groom, &mut warnings);
-    let mut out = TextOut::new(stream);
-    for strand in 0..groom.strand_count() {
-        if strand > 0 {
-            out.push(b"\n");
-        }
-        for vertex in groom.strand_range(strand) {
-            out.floats(&groom.positions()[vertex].to_array(), b" ");
-            for column in &columns {
-                column.push(&mut out, strand, vertex);
+    let written = blocks::write(stream, groom.point_count(), |text, points| {
+        for (strand, points) in strands_among(groom, points) {
+            // A blank line, but for the first strand; not again where a block begins within a strand.
+            if strand > 0 && points.start == groom.strand_range(strand).start {
+                text.push(b"\n");
             }
-            out.push(b"\n");
-            out.hand_on().map_err(|e| FormatError::io(file, e))?;
+            for vertex in points {
+                text.floats(&groom.positions()[vertex].to_array(), b" ");
+                columns.iter().for_each(|column| column.push(text, strand, vertex));
+                text.push(b"\n");
+            }
         }
-    }
-    out.finish().map_err(|e| FormatError::io(file, e))?;
+    });
+    written.map_err(|e| FormatError::io(file, e))?;
     Ok(warnings)
 }
 
@@ -73,29 +73,26 @@ impl<'a> Column<'a> {
     }
 
     #[inline]
-    fn push<W: Write>(&self, out: &mut TextOut<'_, W>, strand: usize, vertex: usize) {
+    fn push(&self, text: &mut Text, strand: usize, vertex: usize) {
         match self {
-            Column::Constant(text) => out.push(text),
+            Column::Constant(constant) => text.push(constant.as_bytes()),
             Column::Float(view) => {
-                out.push(b" ");
-                out.float(view.get(strand, vertex));
+                text.push(b" ");
+                text.float(view.get(strand, vertex));
             }
             Column::Color(view) => {
-                out.push(b" ");
-                out.floats(&view.get(strand, vertex).to_array(), b" ");
+                text.push(b" ");
+                text.floats(&view.get(strand, vertex).to_array(), b" ");
             }
         }
     }
 }
 
-fn as_text(values: &[f32]) -> Vec<u8> {
-    let mut text = Vec::new();
-    let mut out = TextOut::new(&mut text);
+fn as_text(values: &[f32]) -> Text {
+    let mut text = Text::new();
     for &value in values {
-        out.push(b" ");
-        out.float(value);
+        text.push(b" ");
+        text.float(value);
     }
-    // Writing to memory cannot fail.
-    let _ = out.finish();
     text
 }
