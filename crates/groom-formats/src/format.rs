@@ -147,6 +147,7 @@ impl Format {
             Format::Usda | Format::Usdc if head.starts_with(b"#usda") => Format::Usda,
             Format::Usda | Format::Usdc if head.starts_with(b"PK\x03\x04") => Format::Usdz,
             Format::Gltf if head.starts_with(b"glTF") => Format::Glb,
+            Format::Hair if crate::look_alike::is_monohair(head) => Format::MonoHair,
             other => other,
         }
     }

@@ -46,9 +46,22 @@
 #[cfg(feature = "alembic")]
 mod alembic;
 mod animation;
+#[cfg(any(
+    feature = "data",
+    feature = "ct2hair",
+    feature = "tfx",
+    feature = "monohair",
+    feature = "ply",
+    feature = "obj"
+))]
+mod assemble;
 #[cfg(any(feature = "text", feature = "usda", feature = "usdc", feature = "obj", feature = "pbrt"))]
 mod blocks;
+#[cfg(any(feature = "data", feature = "ct2hair", feature = "tfx", feature = "monohair", feature = "ply"))]
+mod bytes;
 mod check;
+#[cfg(any(feature = "data", feature = "ct2hair"))]
+mod counted_strands;
 #[cfg(feature = "ct2hair")]
 mod ct2hair;
 #[cfg(feature = "data")]
@@ -60,6 +73,7 @@ mod format;
 mod gltf;
 #[cfg(feature = "hair")]
 mod hair;
+mod look_alike;
 #[cfg(feature = "monohair")]
 mod monohair;
 #[cfg(any(feature = "text", feature = "usda", feature = "usdc", feature = "obj", feature = "pbrt"))]

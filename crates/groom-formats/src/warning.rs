@@ -70,6 +70,32 @@ pub enum Warning {
         /// The groom's unit in metres.
         meters_per_unit: f64,
     },
+    /// Strands without a point are no strands; the others keep their index in the file as `id`.
+    #[error(
+        "{strands} strands of the {format} file have no point and are left out; the others keep their index as `id`"
+    )]
+    EmptyStrandsLeftOut {
+        /// The format read.
+        format: Format,
+        /// How many.
+        strands: usize,
+    },
+    /// Neighbouring points of a strand are the same.
+    #[error("{count} segments have no length (the first ends at point {first_point})")]
+    ZeroLengthSegments {
+        /// How many.
+        count: usize,
+        /// Index of the point the first of them ends at.
+        first_point: usize,
+    },
+    /// The file goes on after what it says it holds.
+    #[error("{bytes} bytes from byte {offset} on belong to nothing; they are not read")]
+    TrailingBytes {
+        /// Where they start.
+        offset: u64,
+        /// How many.
+        bytes: u64,
+    },
     /// Strands of one point have no line to draw.
     #[error("{format} cannot hold strands of one point; {strands} are left out")]
     OnePointStrandsLeftOut {

@@ -1,5 +1,7 @@
 //! Grooms for the tests, bit by bit comparison.
-#![allow(dead_code, clippy::unwrap_used)] // each test file uses some of it
+#![allow(dead_code, clippy::unwrap_used, clippy::panic)] // each test file uses some of it
+
+pub mod lies;
 
 use glam::{Vec2, Vec3};
 use groom::{Attribute, Domain, Groom, Values, names};
