@@ -3,8 +3,8 @@
 //! A HAIR file holds strands of hair as polylines: a 128-byte header and up to five arrays
 //! (segments of each strand; points, thickness, transparency and colour of each point). See
 //! <http://www.cemyuksel.com/research/hairmodels/>. [`HairFile`] is a whole file in memory,
-//! [`HairReader`] and [`HairWriter`] go strand by strand in bounded memory, [`HairView`] looks at
-//! bytes in place, and, with the feature `mmap`, `MappedHair` at a file.
+//! [`HairReader`] and [`HairWriter`] go strand by strand in bounded memory, [`ArrayWriter`] takes arrays
+//! that lie elsewhere, [`HairView`] looks at bytes in place, and, with the feature `mmap`, `MappedHair` at a file.
 //!
 //! A header is not trusted: a file that lies is refused with a [`HairError`] that names the field,
 //! its byte offset, what was found and what was expected, and no more memory is taken than the file
@@ -25,6 +25,7 @@
 //! # Ok::<(), cyhair::HairError>(())
 //! ```
 
+mod array_write;
 mod check;
 mod cursor;
 mod error;
@@ -45,6 +46,7 @@ mod view;
 mod warning;
 mod write;
 
+pub use array_write::ArrayWriter;
 pub use error::HairError;
 pub use field::Field;
 pub use file::{HairFile, Loaded};

@@ -21,6 +21,14 @@ pub struct Strand<'a> {
     pub colors: Option<&'a [[f32; 3]]>,
 }
 
+impl Strand<'_> {
+    /// How many values the first of its arrays has.
+    pub(crate) fn values(&self) -> Option<usize> {
+        let points = self.points.or(self.colors).map(<[_]>::len);
+        points.or(self.thickness.or(self.transparency).map(<[_]>::len))
+    }
+}
+
 /// Reads a file strand by strand, with 64 KiB of memory an array (more only for a longer strand).
 ///
 /// The arrays lie one behind the other in the file, so this needs to seek. Everything that can be

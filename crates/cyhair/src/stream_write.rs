@@ -9,20 +9,31 @@ use crate::{Field, HairError, Header, KNOWN_ARRAYS, Layout, Span, Strand, check}
 /// Bytes of one array collected before they are written to their place.
 const BUFFER_BYTES: usize = 1 << 16;
 
-/// Writes a file strand by strand, with about 100 KiB of memory an array beyond the segments.
+/// Writes a file strand by strand, with about 100 KiB of memory an array (beyond segments given before).
 ///
-/// The header and the segments are needed up front: they say where each array lies. Nothing is
-/// promised about the file before [`HairWriter::finish`].
+/// The header is needed up front: it says where each array lies. Nothing is promised about the file
+/// before [`HairWriter::finish`].
 #[derive(Debug)]
 pub struct HairWriter<W> {
     file: W,
     header: Header,
-    segments: Option<Vec<u16>>,
+    segments: Segments,
     next: u64,
     points: Option<Lane>,
     thickness: Option<Lane>,
     transparency: Option<Lane>,
     colors: Option<Lane>,
+}
+
+/// Where the numbers of segments come from.
+#[derive(Debug)]
+enum Segments {
+    /// All strands are alike.
+    Default,
+    /// They were given before the first strand.
+    Given(Vec<u16>),
+    /// They are counted as the strands come: so far for this many points.
+    Counted { lane: Lane, points: u64 },
 }
 
 /// Where one array has got to.
@@ -59,8 +70,28 @@ impl<W: Write + Seek> HairWriter<W> {
         let io = |field: Field| move |source| HairError::Io { field, offset: field.header_offset(), source };
         file.write_all(&header.to_bytes()).map_err(io(Field::Magic))?;
         write_values(&mut file, segments.as_deref()).map_err(io(Field::Segments))?;
-        let lane = |field| Lane::new(&layout, field);
-        Ok(HairWriter {
+        let segments = segments.map_or(Segments::Default, Segments::Given);
+        Ok(Self::begun(file, header, &layout, segments))
+    }
+
+    /// As [`HairWriter::new`], for strands whose lengths are not known yet: a segments array that `header`
+    /// announces is counted from the strands as they come, so that memory does not grow with them.
+    ///
+    /// # Errors
+    /// [`HairError::NoStrands`], [`HairError::PointCount`], [`HairError::Io`].
+    pub fn counting(mut file: W, header: Header) -> Result<Self, HairError> {
+        let header = Header { arrays: header.arrays & KNOWN_ARRAYS, ..header };
+        let layout = check::header(&header, None)?;
+        let io = |source| HairError::Io { field: Field::Magic, offset: 0, source };
+        file.write_all(&header.to_bytes()).map_err(io)?;
+        let segments = Lane::new(&layout, Field::Segments)
+            .map_or(Segments::Default, |lane| Segments::Counted { lane, points: 0 });
+        Ok(Self::begun(file, header, &layout, segments))
+    }
+
+    fn begun(file: W, header: Header, layout: &Layout, segments: Segments) -> Self {
+        let lane = |field| Lane::new(layout, field);
+        HairWriter {
             file,
             header,
             segments,
@@ -69,7 +100,7 @@ impl<W: Write + Seek> HairWriter<W> {
             thickness: lane(Field::Thickness),
             transparency: lane(Field::Transparency),
             colors: lane(Field::Colors),
-        })
+        }
     }
 
     /// Writes the next strand, which must bring exactly the arrays announced, as long as announced.
@@ -82,8 +113,7 @@ impl<W: Write + Seek> HairWriter<W> {
         if index == hair_count {
             return Err(HairError::StrandCount { expected: hair_count, found: index + 1 });
         }
-        let segments = self.segments.as_ref().map(|all| u64::from(all[index as usize]));
-        let count = segments.unwrap_or(self.header.default_segments.into()) + 1;
+        let count = self.points_of(index, strand)?;
         let fit = |field, lane: &Option<Lane>, len: Option<usize>| {
             let (expected, found) = (if lane.is_some() { count } else { 0 }, len.unwrap_or(0) as u64);
             if expected == found {
@@ -103,8 +133,31 @@ impl<W: Write + Seek> HairWriter<W> {
         put(&mut self.file, self.thickness.as_mut(), strand.thickness)?;
         put(&mut self.file, self.transparency.as_mut(), strand.transparency)?;
         put(&mut self.file, self.colors.as_mut(), strand.colors)?;
+        if let Segments::Counted { lane, points } = &mut self.segments {
+            // points_of has seen that it fits.
+            put(&mut self.file, Some(lane), Some(&[(count - 1) as u16]))?;
+            *points += count;
+        }
         self.next += 1;
         Ok(())
+    }
+
+    /// Points that strand `index` must have.
+    fn points_of(&self, index: u64, strand: Strand<'_>) -> Result<u64, HairError> {
+        match &self.segments {
+            Segments::Default => Ok(u64::from(self.header.default_segments) + 1),
+            Segments::Given(all) => Ok(u64::from(all[index as usize]) + 1),
+            Segments::Counted { points, .. } => {
+                let found = strand.values().unwrap_or(0) as u64;
+                // More than a number of segments can say, or than the points array was given room for.
+                let room = u64::from(self.header.point_count) - points;
+                let expected = found.clamp(1, room.clamp(1, u64::from(u16::MAX) + 1));
+                if found == expected && found <= room {
+                    return Ok(found);
+                }
+                Err(HairError::Strand { strand: index, field: Field::Segments, expected, found })
+            }
+        }
     }
 
     /// Writes what is still held back and gives the file back, at its end.
@@ -116,8 +169,15 @@ impl<W: Write + Seek> HairWriter<W> {
         if expected != found {
             return Err(HairError::StrandCount { expected, found });
         }
+        let segments = match &mut self.segments {
+            Segments::Counted { lane, points } => {
+                check::point_count(&self.header, *points)?;
+                Some(lane)
+            }
+            _ => None,
+        };
         let lanes = [&mut self.points, &mut self.thickness, &mut self.transparency, &mut self.colors];
-        for lane in lanes.into_iter().flatten() {
+        for lane in lanes.into_iter().flatten().chain(segments) {
             lane.drain(&mut self.file)?;
         }
         let end = self.header.layout().end;

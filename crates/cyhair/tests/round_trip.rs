@@ -6,7 +6,7 @@ mod common;
 use std::io::{Cursor, Read};
 
 use common::file;
-use cyhair::{HairError, HairFile, HairReader, HairView, HairWriter, Strand, Warning};
+use cyhair::{ArrayWriter, Field, HairError, HairFile, HairReader, HairView, HairWriter, Strand, Warning};
 use proptest::prelude::*;
 
 /// A stream that gives a few bytes at a time and does not know its length.
@@ -27,6 +27,27 @@ fn through_streams(bytes: &[u8], segments: Option<Vec<u16>>) -> Result<(Vec<u8>,
         writer.push(strand)?;
     }
     Ok((writer.finish()?.into_inner(), reader.warnings()))
+}
+
+/// As [`through_streams`], the segments being counted on the way.
+fn counted(bytes: &[u8]) -> Result<Vec<u8>, HairError> {
+    let mut reader = HairReader::new(Cursor::new(bytes))?;
+    let mut writer = HairWriter::counting(Cursor::new(Vec::new()), *reader.header())?;
+    while let Some(strand) = reader.next_strand()? {
+        writer.push(strand)?;
+    }
+    Ok(writer.finish()?.into_inner())
+}
+
+/// Writes the arrays one after another, in pieces of `piece` values.
+fn array_by_array(file: &HairFile, piece: usize) -> Result<Vec<u8>, HairError> {
+    let mut writer = ArrayWriter::new(Vec::new(), file.header)?;
+    file.segments.iter().flat_map(|a| a.chunks(piece)).try_for_each(|p| writer.segments(p))?;
+    file.points.iter().flat_map(|a| a.chunks(piece)).try_for_each(|p| writer.points(p))?;
+    file.thickness.iter().flat_map(|a| a.chunks(piece)).try_for_each(|p| writer.thickness(p))?;
+    file.transparency.iter().flat_map(|a| a.chunks(piece)).try_for_each(|p| writer.transparency(p))?;
+    file.colors.iter().flat_map(|a| a.chunks(piece)).try_for_each(|p| writer.colors(p))?;
+    writer.finish()
 }
 
 /// The file a view shows.
@@ -65,6 +86,13 @@ fn check_every_way(file: &HairFile) {
     let (streamed, warnings) = through_streams(&bytes, file.segments.clone()).unwrap();
     assert_eq!(streamed, bytes);
     assert_eq!(warnings, loaded.warnings);
+    // Without any array nothing tells how long a strand is.
+    if file.header.arrays & !1 != 0 || file.segments.is_none() {
+        assert_eq!(counted(&bytes).unwrap(), bytes);
+    }
+    for piece in [1, 5, 100_000] {
+        assert_eq!(array_by_array(file, piece).unwrap(), bytes);
+    }
 }
 
 #[test]
@@ -124,6 +152,56 @@ fn a_streaming_writer_refuses_strands_that_do_not_fit() {
     one.push(strand(2)).unwrap();
     assert!(matches!(one.push(strand(3)), Err(HairError::NonFinitePoint { point: 4, .. })));
     assert!(matches!(one.finish(), Err(HairError::StrandCount { expected: 2, found: 1 })));
+}
+
+#[test]
+fn an_array_writer_refuses_what_a_reader_would() {
+    let good = file(0b11011, &[1, 2]);
+    let writer = || {
+        let mut writer = ArrayWriter::new(Vec::new(), good.header).unwrap();
+        writer.segments(&[1, 2]).unwrap();
+        writer
+    };
+    let length = |result: Result<(), HairError>| match result {
+        Err(HairError::ArrayLength { field, expected, found }) => (field, expected, found),
+        other => panic!("{other:?}"),
+    };
+    assert_eq!(length(writer().segments(&[0])), (Field::Segments, 2, 3));
+    assert_eq!(length(writer().points(&[[0.0; 3]; 6])), (Field::Points, 5, 6));
+    assert_eq!(length(writer().thickness(&[0.0; 1])), (Field::Points, 5, 0));
+    assert_eq!(length(writer().finish().map(drop)), (Field::Points, 5, 0));
+    let mut one = writer();
+    one.points(&[[0.0; 3]; 2]).unwrap();
+    assert!(matches!(one.points(&[[f32::NAN; 3]]), Err(HairError::NonFinitePoint { point: 2, .. })));
+    one.points(&[[0.0; 3]; 3]).unwrap();
+    assert_eq!(length(one.thickness(&[0.0])), (Field::Thickness, 0, 1));
+    one.transparency(&[0.0; 5]).unwrap();
+    assert_eq!(length(one.points(&[[0.0; 3]])), (Field::Points, 5, 6));
+    assert_eq!(length(one.finish().map(drop)), (Field::Colors, 5, 0));
+    let mut lying = ArrayWriter::new(Vec::new(), file(0b00011, &[1, 2]).header).unwrap();
+    lying.segments(&[2, 2]).unwrap();
+    lying.points(&[[0.0; 3]; 5]).unwrap();
+    assert!(matches!(lying.finish(), Err(HairError::PointCount { expected: 6, found: 5, .. })));
+}
+
+#[test]
+fn a_counting_writer_refuses_strands_without_room() {
+    let good = file(0b00011, &[1, 2]);
+    let writer = || HairWriter::counting(Cursor::new(Vec::new()), good.header).unwrap();
+    let points = vec![[0.0; 3]; 70_000];
+    let strand = |count| Strand { points: Some(&points[..count]), ..Strand::default() };
+    let mut full = writer();
+    full.push(strand(4)).unwrap();
+    assert!(matches!(full.push(strand(2)), Err(HairError::Strand { strand: 1, expected: 1, found: 2, .. })));
+    assert!(matches!(writer().push(strand(0)), Err(HairError::Strand { expected: 1, found: 0, .. })));
+    let mut short = writer();
+    short.push(strand(1)).unwrap();
+    short.push(strand(1)).unwrap();
+    assert!(matches!(short.finish(), Err(HairError::PointCount { expected: 2, found: 5, .. })));
+    let header = cyhair::Header { hair_count: 1, point_count: 70_000, ..good.header };
+    let mut long = HairWriter::counting(Cursor::new(Vec::new()), header).unwrap();
+    let refused = long.push(strand(70_000));
+    assert!(matches!(refused, Err(HairError::Strand { expected: 65_536, found: 70_000, .. })));
 }
 
 proptest! {

@@ -87,6 +87,8 @@ mod pbrt;
 #[cfg(feature = "ply")]
 mod ply;
 mod read;
+#[cfg(feature = "hair")]
+mod stream;
 #[cfg(feature = "text")]
 pub mod text;
 #[cfg(feature = "tfx")]
@@ -103,5 +105,7 @@ pub use format::Format;
 pub use options::{Dialect, HairExtras, Loaded, Look, Mesh, ReadOptions, WriteOptions};
 pub use output::Output;
 pub use read::{read, read_from};
+#[cfg(feature = "hair")]
+pub use stream::{Streamed, convert_streaming, convert_streaming_with};
 pub use warning::Warning;
 pub use write::{write, write_seekable, write_to};

@@ -55,7 +55,8 @@ impl Output {
     }
 }
 
-fn is_device(path: &Path) -> bool {
+/// Whether there is something at `path` that a file must not take the place of.
+pub(crate) fn is_device(path: &Path) -> bool {
     path.metadata().is_ok_and(|metadata| !metadata.is_file() && !metadata.is_dir())
 }
 

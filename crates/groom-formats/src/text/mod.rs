@@ -26,4 +26,4 @@ mod read;
 mod write;
 
 pub use read::read;
-pub(crate) use write::write;
+pub(crate) use write::{write, write_strands};

@@ -21,12 +21,23 @@ pub(crate) fn write(groom: &Groom, stream: &mut impl Write, file: &str) -> Resul
     if groom.strand_count() == 0 {
         return Err(FormatError::Empty { file: file.to_owned(), format: Format::Text, points: 1 });
     }
+    write_strands(groom, true, stream, file)
+}
+
+/// Writes the strands of `groom`, which are the first of the file or follow others.
+pub(crate) fn write_strands(
+    groom: &Groom,
+    first: bool,
+    stream: &mut impl Write,
+    file: &str,
+) -> Result<Vec<Warning>, FormatError> {
     let mut warnings = unstored::warnings(groom, Format::Text, UpAxis::Z);
     let columns = columns(groom, &mut warnings);
     let written = blocks::write(stream, groom.point_count(), |text, points| {
         for (strand, points) in strands_among(groom, points) {
-            // A blank line, but for the first strand; not again where a block begins within a strand.
-            if strand > 0 && points.start == groom.strand_range(strand).start {
+            // A blank line between strands; not where a block begins within one.
+            let begins = points.start == groom.strand_range(strand).start;
+            if begins && !(first && strand == 0) {
                 text.push(b"\n");
             }
             for vertex in points {

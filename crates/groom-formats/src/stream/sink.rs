@@ -1,0 +1,75 @@
+//! Formats that take strands in pieces.
+
+use std::io::{Seek, Write};
+
+use groom::Groom;
+
+use crate::hair::HairSink;
+use crate::{Format, FormatError, HairExtras, Warning};
+
+/// What a file's head may have to say before the first strand is there.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Counts {
+    pub(crate) strands: u32,
+    pub(crate) points: u32,
+}
+
+/// A file being written from blocks of strands in order, all of them with the same attributes.
+pub(crate) trait Sink {
+    /// Writes the strands of `block`, whose values are checked.
+    fn push(&mut self, block: &Groom) -> Result<(), FormatError>;
+
+    /// Writes what is left to write; tells what the format could not hold.
+    fn finish(self: Box<Self>) -> Result<Vec<Warning>, FormatError>;
+}
+
+/// Whether `format` can be written in pieces, to a file that can go back or to one that cannot.
+pub(crate) fn takes_pieces(format: Format, can_seek: bool) -> bool {
+    match format {
+        Format::Hair => can_seek,
+        Format::Text => cfg!(feature = "text"),
+        _ => false,
+    }
+}
+
+/// Begins a file of a format that [`takes_pieces`]; `like` has the attributes of all blocks.
+pub(crate) fn begin<'a, W: Write + Seek>(
+    format: Format,
+    stream: &'a mut W,
+    name: &'a str,
+    counts: Counts,
+    extras: &HairExtras,
+    like: &Groom,
+) -> Result<Box<dyn Sink + 'a>, FormatError> {
+    Ok(match format {
+        Format::Hair => Box::new(HairSink::begin(stream, name, counts, extras, like)?),
+        #[cfg(feature = "text")]
+        Format::Text => Box::new(TextSink { stream, name, warnings: None }),
+        _ => {
+            let what = "cannot be written strand by strand";
+            return Err(FormatError::Unsupported { file: name.to_owned(), format, what });
+        }
+    })
+}
+
+#[cfg(feature = "text")]
+struct TextSink<'a, W> {
+    stream: &'a mut W,
+    name: &'a str,
+    /// Those of the first block, which are those of all.
+    warnings: Option<Vec<Warning>>,
+}
+
+#[cfg(feature = "text")]
+impl<W: Write> Sink for TextSink<'_, W> {
+    fn push(&mut self, block: &Groom) -> Result<(), FormatError> {
+        let first = self.warnings.is_none();
+        let warnings = crate::text::write_strands(block, first, self.stream, self.name)?;
+        self.warnings.get_or_insert(warnings);
+        Ok(())
+    }
+
+    fn finish(self: Box<Self>) -> Result<Vec<Warning>, FormatError> {
+        Ok(self.warnings.unwrap_or_default())
+    }
+}
