@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::{Format, FormatError, Loaded, ReadOptions};
 
 /// As many bytes as tell formats of one ending apart.
-const HEAD: u64 = 16;
+pub(crate) const HEAD: u64 = 16;
 
 /// Reads the groom at `path`, in the format its ending names.
 ///

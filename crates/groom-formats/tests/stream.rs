@@ -16,7 +16,7 @@ use groom_formats::{
 use proptest::prelude::*;
 
 /// Every format that takes strands in pieces.
-const TARGETS: [&str; 2] = ["hair", "txt"];
+const TARGETS: [&str; 3] = ["hair", "txt", "data"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
@@ -70,8 +70,8 @@ fn stored(file: &HairFile) -> tempfile::TempPath {
 
 #[test]
 fn every_combination_of_arrays() {
-    let alike = vec![24; 3000];
-    let mixed: Vec<u16> = (0..4000).map(|i| (i * i % 61) as u16).collect();
+    let alike = vec![24; 1500];
+    let mixed: Vec<u16> = (0..1500).map(|i| (i * i % 61) as u16).collect();
     let long = [65_535, 0, 1, 40_000, 0, 7];
     for arrays in (0..32).filter(|arrays| arrays & Field::Points.bit() != 0) {
         let has_segments = arrays & Field::Segments.bit() != 0;
@@ -192,7 +192,7 @@ fn pairs_that_cannot_stream_are_left_alone() {
 fn edits_see_every_block_once() {
     let input = stored(&file(0b10011, &vec![24; 3000]));
     let folder = tempfile::tempdir().unwrap();
-    for target in TARGETS {
+    for target in ["hair", "txt"] {
         let mut seen = 0;
         let output = folder.path().join("edited").with_extension(target);
         let done = convert_streaming_with::<FormatError>(

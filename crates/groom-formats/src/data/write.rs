@@ -25,9 +25,14 @@ pub(crate) fn write(
         writer.push(points)?;
     }
     writer.finish()?;
+    Ok(warnings(groom))
+}
+
+/// What a file of this groom's strands does not hold.
+pub(crate) fn warnings(groom: &Groom) -> Vec<Warning> {
     let mut warnings = unstored::axis_and_unit(groom, Format::Data, UpAxis::Y);
     unstored::left_out(groom, Format::Data, &[], &mut warnings);
-    Ok(warnings)
+    warnings
 }
 
 /// Writes strands as they come; only their number must be known before.

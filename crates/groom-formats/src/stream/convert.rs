@@ -148,7 +148,7 @@ fn open_hair(path: &Path, name: &str) -> Result<Option<File>, FormatError> {
         return Ok(None);
     }
     let mut head = Vec::new();
-    (&file).take(16).read_to_end(&mut head).map_err(fault)?;
+    (&file).take(crate::read::HEAD).read_to_end(&mut head).map_err(fault)?;
     file.seek(SeekFrom::Start(0)).map_err(fault)?;
     Ok((Format::Hair.sniff(&head) == Format::Hair).then_some(file))
 }

@@ -4,6 +4,8 @@ use std::io::{Seek, Write};
 
 use groom::Groom;
 
+#[cfg(feature = "data")]
+use crate::data::write::{self as data, DataWriter};
 use crate::hair::HairSink;
 use crate::{Format, FormatError, HairExtras, Warning};
 
@@ -28,6 +30,7 @@ pub(crate) fn takes_pieces(format: Format, can_seek: bool) -> bool {
     match format {
         Format::Hair => can_seek,
         Format::Text => cfg!(feature = "text"),
+        Format::Data => cfg!(feature = "data"),
         _ => false,
     }
 }
@@ -45,6 +48,11 @@ pub(crate) fn begin<'a, W: Write + Seek>(
         Format::Hair => Box::new(HairSink::begin(stream, name, counts, extras, like)?),
         #[cfg(feature = "text")]
         Format::Text => Box::new(TextSink { stream, name, warnings: None }),
+        #[cfg(feature = "data")]
+        Format::Data => Box::new(DataSink {
+            writer: DataWriter::begin(stream, name, counts.strands.into())?,
+            warnings: data::warnings(like),
+        }),
         _ => {
             let what = "cannot be written strand by strand";
             return Err(FormatError::Unsupported { file: name.to_owned(), format, what });
@@ -71,5 +79,23 @@ impl<W: Write> Sink for TextSink<'_, W> {
 
     fn finish(self: Box<Self>) -> Result<Vec<Warning>, FormatError> {
         Ok(self.warnings.unwrap_or_default())
+    }
+}
+
+#[cfg(feature = "data")]
+struct DataSink<'a, W: Write> {
+    writer: DataWriter<'a, W>,
+    warnings: Vec<Warning>,
+}
+
+#[cfg(feature = "data")]
+impl<W: Write> Sink for DataSink<'_, W> {
+    fn push(&mut self, block: &Groom) -> Result<(), FormatError> {
+        block.strands().try_for_each(|points| self.writer.push(points))
+    }
+
+    fn finish(self: Box<Self>) -> Result<Vec<Warning>, FormatError> {
+        self.writer.finish()?;
+        Ok(self.warnings)
     }
 }
