@@ -1,6 +1,32 @@
-//! Alembic.
+//! Alembic: one Curves object of linear curves at `/groom`, with Unreal's groom schema (version 1.5).
+//!
+//! | groom | Alembic |
+//! |---|---|
+//! | points | `P`, `nVertices`, linear, not periodic; `.selfBnds`, and `.childBnds` of the archive |
+//! | radius | `width`: diameters |
+//! | velocity per vertex | `.velocities`, per second |
+//! | root_uv | `uv` and `groom_root_uv`; stored once |
+//! | color, id, group, guide | `groom_color`, `groom_id`, `groom_group_id`, `groom_guide` |
+//! | transparency and any other | a parameter of its name among `.arbGeomParams` |
+//! | constant, per strand, per vertex | scope `con`, `uni`, `vtx` |
+//! | unit, up axis | `groomkit_meters_per_unit`, `groomkit_up_axis` among `.userProperties` |
+//!
+//! **Unit and axis.** Alembic has neither. Numbers are written as the groom has them, and what they mean stands
+//! in two properties that only groomkit reads; without them y up and a metre a unit are assumed, as for
+//! most programs that write Alembic ([`ReadOptions`](crate::ReadOptions) can say otherwise). Blender, Maya and Houdini take y up.
+//! [`Dialect::Unreal`](crate::Dialect) turns and scales: centimetres, z up. Unreal's axes are left-handed, so strands appear
+//! mirrored unless its import dialogue is told to scale y by -1.
+//!
+//! **Widths.** Blender 5.0 ignores a constant width and reads past the end of widths per strand (its radii are
+//! then garbage), so widths are written per point, and `groomkit_domains` says what they were. Unreal
+//! takes all scopes and gets the groom's own; there `groom_width` stands beside them (stored once), which
+//! wins in Unreal and is not scaled on import, so it is left out elsewhere.
+//!
+//! **Reading** takes every Curves object (`AbcGeom_Curve_v2`) below its Xforms; cubic ones become polylines
+//! (`ReadOptions::curve_error`). Hermite, power and variable order curves are refused.
 
 mod read;
+mod schema;
 mod write;
 
 pub(crate) use read::read;

@@ -91,7 +91,7 @@ impl<W: Write + Seek> ArchiveWriter<W> {
     pub fn bytes(&mut self, bytes: &[u8]) -> Result<StoredSample, OgawaError> {
         let len = bytes.len() as u64;
         if bytes.is_empty() {
-            return Ok(StoredSample { place: DATA, len, key: [0; KEY], strings: None });
+            return Ok(StoredSample::EMPTY);
         }
         // Readers take the key for the content and cache by it.
         let mut key = [0; KEY];

@@ -107,6 +107,9 @@ impl Changes {
 }
 
 impl StoredSample {
+    /// A sample of nothing.
+    pub const EMPTY: StoredSample = StoredSample { place: DATA, len: 0, key: [0; KEY], strings: None };
+
     /// How many values of a type it holds.
     pub(super) fn count(&self, data_type: DataType) -> u64 {
         match (self.strings, data_type.size()) {

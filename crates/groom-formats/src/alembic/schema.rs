@@ -1,0 +1,78 @@
+//! Names of Alembic's schemas (`AbcGeom` 1.8) and of Unreal's groom schema, for writer and reader alike.
+//!
+//! Unreal: "Using Alembic for Grooms", dev.epicgames.com/documentation, version 1.5 of the schema.
+
+use groom::{Domain, names};
+use ogawa::{DataType, Metadata, Pod};
+
+/// The schema of curves.
+pub(super) const CURVES: &str = "AbcGeom_Curve_v2";
+/// The compound in which an object's schema stands.
+pub(super) const GEOMETRY: &str = ".geom";
+pub(super) const ARBITRARY: &str = ".arbGeomParams";
+pub(super) const USER: &str = ".userProperties";
+pub(super) const POINTS: &str = "P";
+pub(super) const COUNTS: &str = "nVertices";
+pub(super) const KIND: &str = "curveBasisAndType";
+pub(super) const SELF_BOUNDS: &str = ".selfBnds";
+pub(super) const CHILD_BOUNDS: &str = ".childBnds";
+pub(super) const VELOCITIES: &str = ".velocities";
+pub(super) const WIDTH: &str = "width";
+pub(super) const UV: &str = "uv";
+
+pub(super) const GROOM_WIDTH: &str = "groom_width";
+pub(super) const GROOM_ROOT_UV: &str = "groom_root_uv";
+pub(super) const VERSION_MAJOR: (&str, i16) = ("groom_version_major", 1);
+pub(super) const VERSION_MINOR: (&str, i16) = ("groom_version_minor", 5);
+pub(super) const TOOL: &str = "groom_tool";
+
+/// Ours: `y` or `z`. Not `groom_`: Unreal takes those for its own.
+pub(super) const UP_AXIS: &str = "groomkit_up_axis";
+/// Ours: metres in a unit.
+pub(super) const METERS_PER_UNIT: &str = "groomkit_meters_per_unit";
+/// Ours: attributes that were spread over the points, as `radius=strand,color=groom`.
+pub(super) const DOMAINS: &str = "groomkit_domains";
+/// Frames a second, in the archive's metadata (`kDCCFPSKey`).
+pub(super) const FRAME_RATE: &str = "_ai_DCC_FPS";
+
+/// Standard attributes and their names among the arbitrary parameters. Transparency keeps its own: Unreal
+/// has none.
+pub(super) const PARAMETERS: [(&str, &str); 5] = [
+    (names::COLOR, "groom_color"),
+    (names::ID, "groom_id"),
+    (names::GROUP, "groom_group_id"),
+    (names::GUIDE, "groom_guide"),
+    (names::ROOT_UV, GROOM_ROOT_UV),
+];
+
+/// Metadata of a Curves object, and of its geometry.
+pub(super) fn curves() -> (Metadata, Metadata) {
+    let base = Metadata::new().with("schema", CURVES).with("schemaBaseType", "AbcGeom_GeomBase_v1");
+    (base.clone().with("schemaObjTitle", &format!("{CURVES}:{GEOMETRY}")), base)
+}
+
+/// What a scope is called.
+pub(super) fn scope(domain: Domain) -> &'static str {
+    match domain {
+        Domain::Groom => "con",
+        Domain::Strand => "uni",
+        Domain::Vertex => "vtx",
+    }
+}
+
+/// Metadata of a geometry parameter, as `OGeomParam` writes it.
+pub(super) fn parameter(data_type: DataType, domain: Domain) -> Metadata {
+    let number = match data_type.pod {
+        Pod::I32 => "int32_t",
+        _ => "float32_t",
+    };
+    // Unreal looks for vectors, also in `groom_color`, and refuses what is called anything else.
+    let meaning = if data_type.extent > 1 { "vector" } else { "" };
+    Metadata::new()
+        .with("arrayExtent", "1")
+        .with("geoScope", scope(domain))
+        .with("interpretation", meaning)
+        .with("isGeomParam", "true")
+        .with("podExtent", &data_type.extent.to_string())
+        .with("podName", number)
+}
