@@ -183,3 +183,17 @@ proptest! {
         let _ = open(&bytes);
     }
 }
+
+/// u16 positions every 8 bytes, which are 0 to 1 of what the node makes of them; no bounds in the file.
+#[test]
+fn quantised_meshes_are_read() {
+    let json = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],
+        "extensionsUsed":["KHR_mesh_quantization"],"extensionsRequired":["KHR_mesh_quantization"],
+        "nodes":[{"mesh":0,"scale":[2,2,2],"translation":[1,0,0]}],
+        "meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+        "accessors":[{"bufferView":0,"componentType":5123,"normalized":true,"count":3,"type":"VEC3"}],
+        "bufferViews":[{"buffer":0,"byteLength":24,"byteStride":8}],"buffers":[{"byteLength":24}]}"#;
+    let words = [0u16, 0, 0, 0, 65535, 0, 0, 0, 0, 13107, 0, 0];
+    let mesh = open(&glb(json.as_bytes(), &words.map(u16::to_le_bytes).concat())).unwrap();
+    assert_eq!(mesh.positions, [Vec3::X, Vec3::X * 3.0, Vec3::new(1.0, 0.4, 0.0)]);
+}

@@ -3,40 +3,16 @@
 use glam::{DMat4, DVec3, Vec3};
 use gltf::accessor::Dimensions;
 use gltf::mesh::Mode;
-use gltf::{Accessor, Document, Mesh, Node, Primitive, Semantic, Skin};
+use gltf::{Accessor, Mesh, Primitive, Semantic, Skin};
+use gltf_bytes::{Asset, Buffers, Elements};
 
-use super::accessor;
-use super::buffers::Buffers;
 use crate::TriangleMesh;
 use crate::error::Fault;
 
-/// Deeper node trees are taken for cycles, which the JSON can express and the format forbids.
-const DEEPEST: usize = 1024;
-
 /// All triangles of the default scene (else the first, else all nodes) in world space.
-pub(crate) fn mesh(document: &Document, buffers: &Buffers<'_>) -> Result<TriangleMesh, Fault> {
-    let roots: Vec<Node<'_>> = match document.default_scene().or_else(|| document.scenes().next()) {
-        Some(scene) => scene.nodes().collect(),
-        None => {
-            let children: Vec<usize> =
-                document.nodes().flat_map(|n| n.children().map(|c| c.index()).collect::<Vec<_>>()).collect();
-            document.nodes().filter(|n| !children.contains(&n.index())).collect()
-        }
-    };
-    let mut worlds = vec![None; document.nodes().len()];
-    let mut visit: Vec<(Node<'_>, DMat4, usize)> =
-        roots.into_iter().map(|n| (n, DMat4::IDENTITY, 0)).collect();
-    while let Some((node, parent, depth)) = visit.pop() {
-        if depth > DEEPEST || worlds[node.index()].is_some() {
-            return Err(Fault::invalid(
-                format!("nodes[{}]", node.index()),
-                "reached twice, expected a tree of nodes",
-            ));
-        }
-        let world = parent * local(&node);
-        worlds[node.index()] = Some(world);
-        visit.extend(node.children().map(|child| (child, world, depth + 1)));
-    }
+pub(crate) fn mesh(asset: &Asset<'_>) -> Result<TriangleMesh, Fault> {
+    let Asset { document, buffers } = asset;
+    let worlds = gltf_bytes::placements(document)?;
     let mut all = TriangleMesh::default();
     for node in document.nodes() {
         let (Some(world), Some(mesh)) = (worlds[node.index()], node.mesh()) else { continue };
@@ -53,17 +29,14 @@ pub(crate) fn mesh(document: &Document, buffers: &Buffers<'_>) -> Result<Triangl
     Ok(all)
 }
 
-fn local(node: &Node<'_>) -> DMat4 {
-    DMat4::from_cols_array_2d(&node.transform().matrix().map(|column| column.map(f64::from)))
-}
-
 fn joint_matrices(
     skin: &Skin<'_>,
     worlds: &[Option<DMat4>],
     buffers: &Buffers<'_>,
 ) -> Result<Vec<DMat4>, Fault> {
     let inverse_bind = match skin.inverse_bind_matrices() {
-        Some(accessor) => accessor::read(&accessor, Dimensions::Mat4, buffers)?,
+        Some(accessor) => Elements::of(&accessor, &[Dimensions::Mat4], buffers)?
+            .all(|columns: [f64; 16]| DMat4::from_cols_array(&columns)),
         None => Vec::new(),
     };
     let place = |i| format!("skins[{}].joints[{i}]", skin.index());
@@ -72,8 +45,8 @@ fn joint_matrices(
         let Some(world) = worlds[joint.index()] else {
             return Err(Fault::invalid(place(i), format!("node {} is outside the scene", joint.index())));
         };
-        let bind = match inverse_bind.as_chunks::<16>().0.get(i) {
-            Some(columns) => DMat4::from_cols_array(columns),
+        let bind = match inverse_bind.get(i) {
+            Some(bind) => *bind,
             None if inverse_bind.is_empty() => DMat4::IDENTITY,
             None => return Err(Fault::invalid(place(i), "no inverse bind matrix for this joint")),
         };
@@ -116,10 +89,7 @@ impl Part {
             }
         }
         let indices = match primitive.indices() {
-            Some(accessor) => accessor::read(&accessor, Dimensions::Scalar, buffers)?
-                .into_iter()
-                .map(|i| i as u32)
-                .collect(),
+            Some(accessor) => Elements::of(&accessor, &[Dimensions::Scalar], buffers)?.indices()?,
             None => (0..positions.len() as u32).collect::<Vec<u32>>(),
         };
         let normals = normals.filter(|n| n.len() == positions.len());
@@ -163,17 +133,16 @@ fn skinning(
     for set in 0.. {
         let pair = (primitive.get(&Semantic::Joints(set)), primitive.get(&Semantic::Weights(set)));
         let (Some(indices), Some(weights)) = pair else { break };
-        let indices = accessor::read(&indices, Dimensions::Vec4, buffers)?;
-        let weights = accessor::read(&weights, Dimensions::Vec4, buffers)?;
-        if indices.len() != vertices * 4 || weights.len() != vertices * 4 {
+        let indices = quadruples(&indices, buffers)?;
+        let weights = quadruples(&weights, buffers)?;
+        if indices.len() != vertices || weights.len() != vertices {
             return Err(Fault::invalid(
                 place,
                 format!("JOINTS_{set} and WEIGHTS_{set} do not have one entry a vertex"),
             ));
         }
-        for (i, (&joint, &weight)) in
-            indices.iter().zip(&weights).enumerate().filter(|(_, (_, w))| **w != 0.0)
-        {
+        let entries = indices.iter().flatten().zip(weights.iter().flatten());
+        for (i, (&joint, &weight)) in entries.enumerate().filter(|(_, (_, w))| **w != 0.0) {
             let Some(matrix) = joints.get(joint as usize) else {
                 let fault = format!("joint {joint} of vertex {}, expected below {}", i / 4, joints.len());
                 return Err(Fault::invalid(format!("{place}.JOINTS_{set}"), fault));
@@ -193,8 +162,11 @@ fn skinning(
 }
 
 fn triples(accessor: &Accessor<'_>, buffers: &Buffers<'_>) -> Result<Vec<DVec3>, Fault> {
-    let values = accessor::read(accessor, Dimensions::Vec3, buffers)?;
-    Ok(values.as_chunks::<3>().0.iter().map(|&v| v.into()).collect())
+    Ok(Elements::of(accessor, &[Dimensions::Vec3], buffers)?.all(DVec3::from_array))
+}
+
+fn quadruples(accessor: &Accessor<'_>, buffers: &Buffers<'_>) -> Result<Vec<[f64; 4]>, Fault> {
+    Ok(Elements::of(accessor, &[Dimensions::Vec4], buffers)?.all(|v| v))
 }
 
 fn add_weighted(

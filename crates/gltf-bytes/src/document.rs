@@ -1,0 +1,119 @@
+//! From JSON to a document whose indices and types are checked.
+
+use gltf::json::{Root, Value};
+use gltf::{Document, Semantic};
+
+use crate::GltfError;
+
+/// Extensions a file may require because the data is read with them or does without.
+const KNOWN: [&str; 5] = [
+    // Only widens the types of accessors, all of which are read.
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+    "EXT_lights_image_based",
+    "EXT_texture_webp",
+];
+
+/// Parses and validates a document: afterwards every index in it is in range.
+///
+/// # Errors
+/// [`GltfError::Invalid`] with the JSON's line and column or the path of the value at fault;
+/// [`GltfError::Unsupported`] for a required extension that changes geometry.
+pub(crate) fn parse(json: &[u8]) -> Result<Document, GltfError> {
+    let mut root: Root = gltf::json::deserialize::from_slice(json).map_err(|e| {
+        let place = format!("JSON line {} column {}", e.line(), e.column());
+        GltfError::invalid(place, e.to_string(), "a glTF 2.0 document")
+    })?;
+    refuse_unknown(&root)?;
+    // `Document::from_json` would also refuse the required extensions it has not been compiled for.
+    root.extensions_required.clear();
+    check_positions(&mut root)?;
+    Document::from_json(root).map_err(|e| match e {
+        gltf::Error::Validation(faults) => match faults.first() {
+            Some((path, fault)) => GltfError::invalid(path.as_str(), fault.to_string(), "as glTF 2.0 says"),
+            None => GltfError::invalid("JSON", "a fault", "a glTF 2.0 document"),
+        },
+        other => GltfError::invalid("JSON", other.to_string(), "a glTF 2.0 document"),
+    })
+}
+
+fn refuse_unknown(root: &Root) -> Result<(), GltfError> {
+    let is_known =
+        |name: &str| KNOWN.contains(&name) || name.starts_with("KHR_materials_") || name.contains("texture");
+    match root.extensions_required.iter().find(|name| !is_known(name)) {
+        Some(extension) => Err(GltfError::Unsupported {
+            what: format!("the required extension {extension}"),
+            remedy: "export without it (most exporters have a switch for compression)",
+        }),
+        None => Ok(()),
+    }
+}
+
+/// The crate's validation looks up every `POSITION` accessor before it has checked the index, and wants its
+/// bounds to be there. Nobody here trusts bounds, so those that are missing or odd are no reason to refuse.
+fn check_positions(root: &mut Root) -> Result<(), GltfError> {
+    let Root { meshes, accessors, .. } = root;
+    let count = accessors.len();
+    for (m, mesh) in meshes.iter().enumerate() {
+        for (p, primitive) in mesh.primitives.iter().enumerate() {
+            let position = gltf::json::validation::Checked::Valid(Semantic::Positions);
+            let Some(index) = primitive.attributes.get(&position) else { continue };
+            let Some(accessor) = accessors.get_mut(index.value()) else {
+                let place = format!("meshes[{m}].primitives[{p}].attributes.POSITION");
+                return Err(GltfError::invalid(
+                    place,
+                    index.to_string(),
+                    format!("below the accessor count {count}"),
+                ));
+            };
+            for bound in [&mut accessor.min, &mut accessor.max] {
+                *bound = Some(Value::from(vec![0.0_f32; 3]));
+            }
+        }
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn told(json: &str) -> String {
+        parse(json.as_bytes()).unwrap_err().to_string()
+    }
+
+    #[test]
+    fn broken_documents_name_the_place() {
+        assert!(told("{").starts_with("JSON line 1 column 1: found EOF"));
+        assert!(told(r#"{"asset":{"version":"2.0"},"scene":3}"#).starts_with("scene: found Index out of"));
+        let mesh = r#"{"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]}"#;
+        let error =
+            "meshes[0].primitives[0].attributes.POSITION: found 0, expected below the accessor count 0";
+        assert_eq!(told(mesh), error);
+        let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
+        assert!(told(&deep).starts_with("JSON line 1"), "no stack is used up");
+    }
+
+    #[test]
+    fn extensions_that_change_no_geometry_may_be_required() {
+        let with = |name: &str| {
+            parse(format!(r#"{{"asset":{{"version":"2.0"}},"extensionsRequired":["{name}"]}}"#).as_bytes())
+        };
+        for known in ["KHR_mesh_quantization", "KHR_materials_clearcoat", "KHR_texture_basisu"] {
+            assert!(with(known).is_ok(), "{known}");
+        }
+        for unknown in ["KHR_draco_mesh_compression", "EXT_meshopt_compression", "EXT_mesh_gpu_instancing"] {
+            let error = with(unknown).unwrap_err();
+            assert!(matches!(error, GltfError::Unsupported { .. }) && error.to_string().contains(unknown));
+        }
+    }
+
+    #[test]
+    fn bounds_are_not_asked_for() {
+        let json = r#"{"asset":{"version":"2.0"},"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],
+            "accessors":[{"componentType":5126,"count":1,"type":"VEC3","bufferView":0}],
+            "bufferViews":[{"buffer":0,"byteLength":12}],"buffers":[{"byteLength":12}]}"#;
+        assert!(parse(json.as_bytes()).is_ok());
+    }
+}
