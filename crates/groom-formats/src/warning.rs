@@ -124,6 +124,16 @@ pub enum Warning {
         /// The largest difference, on the attribute's own scale.
         error: f32,
     },
+    /// Positions were rounded to a grid, as was asked.
+    #[error("{format} holds positions in {bits} bits; they are off by up to {error:.1e} m")]
+    PositionsRounded {
+        /// The format written.
+        format: Format,
+        /// Bits of a coordinate.
+        bits: u32,
+        /// The largest distance between a point and where it is written, metres.
+        error: f32,
+    },
 }
 
 fn name(axis: &UpAxis) -> &'static str {

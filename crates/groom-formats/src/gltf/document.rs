@@ -3,16 +3,18 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use gltf::json::accessor::{ComponentType, GenericComponentType, Type};
+use gltf::json::accessor::GenericComponentType;
 use gltf::json::buffer::{Stride, Target, View};
+use gltf::json::extras::RawValue;
 use gltf::json::material::{AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
 use gltf::json::mesh::{Mode, Primitive};
 use gltf::json::validation::Checked::{self, Valid};
 use gltf::json::validation::USize64;
-use gltf::json::{Accessor, Buffer, Index, Material, Mesh, Node, Root, Scene, Value, serialize};
+use gltf::json::{Accessor, Buffer, Index, Material, Mesh, Node, Root, Scene, serialize};
 use gltf::mesh::Semantic;
 
-use crate::gltf::Plan;
+use super::Plan;
+use super::views::{self, Field};
 
 pub(super) fn json(plan: &Plan<'_>, bytes_name: Option<&[u8]>) -> io::Result<Vec<u8>> {
     let mut builder = Builder { root: Root::default(), used: 0, buffer: Index::new(0) };
@@ -25,7 +27,7 @@ pub(super) fn json(plan: &Plan<'_>, bytes_name: Option<&[u8]>) -> io::Result<Vec
         extras: None,
     });
     let primitive = builder.primitive(plan);
-    builder.place(primitive);
+    builder.place(plan, primitive)?;
     // A document is read by people when it stands alone.
     let bytes = match bytes_name {
         Some(_) => serialize::to_vec_pretty(&builder.root),
@@ -41,101 +43,87 @@ struct Builder {
     buffer: Index<Buffer>,
 }
 
-/// The shape of one array in the buffer.
-struct Array {
-    count: usize,
-    item_bytes: usize,
-    component: ComponentType,
-    kind: Type,
-    target: Target,
-}
-
 impl Builder {
     /// Describes the arrays in the order [`bytes`](super::bytes) writes them.
     fn primitive(&mut self, plan: &Plan<'_>) -> Primitive {
-        let points = plan.drawable.points;
-        let vertex = |item_bytes, component, kind| Array {
-            count: points,
-            item_bytes,
-            component,
-            kind,
-            target: Target::ArrayBuffer,
-        };
-        let indices = self.array(&Array {
-            count: plan.index_count(),
-            item_bytes: 4,
-            component: ComponentType::U32,
-            kind: Type::Scalar,
-            target: Target::ElementArrayBuffer,
-        });
+        let mut indices = None;
         let mut attributes: BTreeMap<Checked<Semantic>, Index<Accessor>> = BTreeMap::new();
-        let positions = self.array(&vertex(12, ComponentType::F32, Type::Vec3));
-        let bounds = |corner: glam::Vec3| Some(Value::from(corner.to_array().map(f64::from).to_vec()));
-        let accessor = &mut self.root.accessors[positions.value()];
-        (accessor.min, accessor.max) = (bounds(plan.min), bounds(plan.max));
-        attributes.insert(Valid(Semantic::Positions), positions);
-        if plan.colors.is_some() {
-            let colors = self.array(&vertex(4, ComponentType::U8, Type::Vec4));
-            self.root.accessors[colors.value()].normalized = true;
-            attributes.insert(Valid(Semantic::Colors(0)), colors);
+        for view in &plan.views {
+            let place = self.view(view);
+            for field in &view.fields {
+                let accessor = self.accessor(place, view.count, field);
+                match &field.semantic {
+                    Some(semantic) => drop(attributes.insert(Valid(semantic.clone()), accessor)),
+                    None => indices = Some(accessor),
+                }
+            }
         }
-        let widths = self.array(&vertex(4, ComponentType::F32, Type::Scalar));
-        attributes.insert(Valid(Semantic::Extras("WIDTH".to_owned())), widths);
         let material = Some(self.root.push(hair_material(plan.is_clear)));
-        Primitive {
-            attributes,
-            extensions: None,
-            extras: None,
-            indices: Some(indices),
-            material,
-            mode: Valid(Mode::Lines),
-            targets: None,
-        }
+        let mode = Valid(Mode::Lines);
+        Primitive { attributes, extensions: None, extras: None, indices, material, mode, targets: None }
     }
 
-    fn array(&mut self, array: &Array) -> Index<Accessor> {
-        let bytes = (array.count * array.item_bytes) as u64;
-        let is_vertex = array.target == Target::ArrayBuffer;
-        let view = self.root.push(View {
+    fn view(&mut self, view: &views::View<'_>) -> Index<View> {
+        let is_vertex = view.fields.iter().any(|field| field.semantic.is_some());
+        let target = if is_vertex { Target::ArrayBuffer } else { Target::ElementArrayBuffer };
+        let bytes = view.bytes();
+        let place = self.root.push(View {
             buffer: self.buffer,
             byte_length: bytes.into(),
             byte_offset: Some(self.used.into()),
-            byte_stride: is_vertex.then_some(Stride(array.item_bytes)),
+            byte_stride: is_vertex.then_some(Stride(view.stride)),
             name: None,
-            target: Some(Valid(array.target)),
+            target: Some(Valid(target)),
             extensions: None,
             extras: None,
         });
         self.used += bytes;
+        place
+    }
+
+    fn accessor(&mut self, view: Index<View>, count: usize, field: &Field) -> Index<Accessor> {
+        let [min, max] = field.bounds.clone().map_or([None, None], |bounds| bounds.map(Some));
         self.root.push(Accessor {
             buffer_view: Some(view),
-            byte_offset: None,
-            count: USize64::from(array.count),
-            component_type: Valid(GenericComponentType(array.component)),
+            byte_offset: (field.offset > 0).then(|| USize64::from(field.offset)),
+            count: USize64::from(count),
+            component_type: Valid(GenericComponentType(field.component)),
             extensions: None,
             extras: None,
-            type_: Valid(array.kind),
-            min: None,
-            max: None,
+            type_: Valid(field.kind),
+            min,
+            max,
             name: None,
-            normalized: false,
+            normalized: field.normalized,
             sparse: None,
         })
     }
 
     /// Puts the primitive into a mesh, a node and the scene.
-    fn place(&mut self, primitive: Primitive) {
+    fn place(&mut self, plan: &Plan<'_>, primitive: Primitive) -> io::Result<()> {
+        let extras = match &plan.marks {
+            Some(marks) => Some(RawValue::from_string(marks.to_string()).map_err(io::Error::other)?),
+            None => None,
+        };
         let mesh = self.root.push(Mesh {
             extensions: None,
-            extras: None,
+            extras,
             name: Some("Strands".to_owned()),
             primitives: vec![primitive],
             weights: None,
         });
-        let node = Node { mesh: Some(mesh), name: Some("Groom".to_owned()), ..Node::default() };
+        let mut node = Node { mesh: Some(mesh), name: Some("Groom".to_owned()), ..Node::default() };
+        if let Some(grid) = plan.grid.filter(|grid| grid.is_stored()) {
+            node.translation = Some(grid.translation().to_array());
+            node.scale = Some([grid.scale(); 3]);
+            let extension = "KHR_mesh_quantization".to_owned();
+            self.root.extensions_used.push(extension.clone());
+            self.root.extensions_required.push(extension);
+        }
         let nodes = vec![self.root.push(node)];
         let scene = Scene { extensions: None, extras: None, name: None, nodes };
         self.root.scene = Some(self.root.push(scene));
+        Ok(())
     }
 }
 

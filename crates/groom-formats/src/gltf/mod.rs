@@ -1,15 +1,39 @@
-//! glTF 2.0: every strand as line segments of one indexed LINES primitive.
+//! glTF 2.0, read and written.
 //!
-//! glTF has no ratified curves, and a LINE_STRIP a strand would be tens of thousands of draw calls. The
-//! attributes are POSITION, COLOR_0 (linear, 8 bits a channel, alpha = 1 - transparency; left out when
-//! the groom has neither; blended where any is below 1) and `_WIDTH`, the diameter: a single custom attribute, because Blender 5.0.1
-//! mixes up several of different size. Y is up and the unit is the metre, so points and widths are
-//! turned and scaled.
+//! # Lines
+//!
+//! glTF has no ratified curves, and a LINE_STRIP a strand would be tens of thousands of draw calls: every
+//! strand is written as line segments of one indexed LINES primitive. The attributes are POSITION, COLOR_0
+//! (linear, 8 bits a channel, alpha = 1 - transparency; left out when the groom has neither; blended where any
+//! is below 1) and `_WIDTH`, the diameter: a single custom attribute, because Blender 5.0.1 mixes up several
+//! of different size. Y is up and the unit is the metre, so points and widths are turned and scaled.
+//!
+//! # Options
+//!
+//! [`all_attributes`](crate::WriteOptions::all_attributes) adds `_STRAND` (the `id`), `_ROOT_UV`, `_GROUP`, `_GUIDE`,
+//! `_VELOCITY` (turned, in metres per second) and every other attribute as `_NAME`, one value a vertex, as 32-bit
+//! floats; integers that floats cannot hold and values that are not finite are left out with a warning.
+//! `extras.groomkit` of the mesh keeps the name, the domain and the type of each, so that [`read`] gives
+//! back what was written.
+//!
+//! [`quantize`](crate::WriteOptions::quantize) rounds positions to a grid of cubes, 2^bits - 1 of them along the
+//! longest side. Up to 16 bits they are stored as integers with KHR_mesh_quantization, and the node places
+//! them; `_WIDTH` and `_VELOCITY` are then in the mesh's own units, as the positions are. The error comes back as
+//! [`Warning::PositionsRounded`](crate::Warning::PositionsRounded).
 
+mod blocks;
 mod bytes;
+mod colors;
 mod document;
+mod extra;
+mod glb;
+mod grid;
 mod plan;
 mod read;
+mod runs;
+mod space;
+mod views;
 
-pub(crate) use plan::{Plan, write_glb};
+pub(crate) use glb::write_glb;
+pub(crate) use plan::Plan;
 pub(crate) use read::read;
