@@ -65,7 +65,7 @@ impl<'a> Plan<'a> {
             marks: None,
             warnings,
         };
-        plan.refuse_infinite(format, file)?;
+        plan.refuse_infinite(format, file, options.quantize.is_some())?;
         plan.round_positions(format, options.quantize);
         plan.views = views::of_lines(&plan, &extras);
         if options.all_attributes {
@@ -145,16 +145,15 @@ impl<'a> Plan<'a> {
         self.warnings.push(Warning::PositionsRounded { format, bits: grid.bits(), error });
     }
 
-    fn refuse_infinite(&self, format: Format, file: &str) -> Result<(), FormatError> {
+    /// A grid also needs the size of the box to be a float.
+    fn refuse_infinite(&self, format: Format, file: &str, has_grid: bool) -> Result<(), FormatError> {
         let widest = match self.drawable.groom.radii() {
             FloatView::Constant(radius) => radius,
             FloatView::Strand(radii) | FloatView::Vertex(radii) => radii.iter().copied().fold(0.0, f32::max),
         };
         let [min, max] = self.bounds;
-        let is_finite = min.is_finite()
-            && max.is_finite()
-            && (max - min).is_finite()
-            && self.space.width(widest).is_finite();
+        let is_finite = min.is_finite() && max.is_finite() && (!has_grid || (max - min).is_finite());
+        let is_finite = is_finite && self.space.width(widest).is_finite();
         if is_finite {
             return Ok(());
         }
