@@ -1,6 +1,6 @@
 //! A layer in crate form, prim by prim.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet};
 use std::io::{Seek, Write};
 
 use crate::write::arrays::{packed_floats, packed_ints};
@@ -261,27 +261,28 @@ impl<W: Write + Seek> CrateWriter<W> {
     /// The specs of the layer and the prims, now that all children are known.
     fn prim_specs(&mut self) -> Result<(), WriteError> {
         let prims = std::mem::take(&mut self.prims);
-        let parents = prims.iter().map(|prim| self.parent_of(&prim.path)).collect::<Result<Vec<_>, _>>()?;
-        let children_of = |number: u32| -> Vec<&str> {
-            let children = prims.iter().zip(&parents).filter(|&(_, &parent)| parent == number);
-            children.map(|(prim, _)| prim.path.rsplit('/').next().unwrap_or_default()).collect()
-        };
+        let mut children: HashMap<u32, Vec<&str>> = HashMap::new();
+        for prim in &prims {
+            let (parent, name) = prim.path.rsplit_once('/').unwrap_or_default();
+            children.entry(self.parent(parent, &prim.path)?).or_default().push(name);
+        }
+        let children_of = |number| children.get(&number).map_or(&[][..], Vec::as_slice);
         let mut fields = std::mem::take(&mut self.metadata);
-        self.names("primChildren", &children_of(0), &mut fields)?;
+        self.names("primChildren", children_of(0), &mut fields)?;
         self.records.spec(0, SpecKind::Layer, &fields);
         for prim in &prims {
             let mut fields = prim.fields.clone();
             let properties: Vec<&str> = prim.properties.iter().map(String::as_str).collect();
             self.names("properties", &properties, &mut fields)?;
-            self.names("primChildren", &children_of(prim.number), &mut fields)?;
+            self.names("primChildren", children_of(prim.number), &mut fields)?;
             self.records.spec(prim.number, SpecKind::Prim, &fields);
         }
         Ok(())
     }
 
-    fn parent_of(&mut self, path: &str) -> Result<u32, WriteError> {
-        let parent = path.rsplit_once('/').map_or("/", |(parent, _)| if parent.is_empty() { "/" } else { parent });
-        let number = self.paths.prim(parent)?;
+    /// The number of the prim at `parent`, which is that of `path`.
+    fn parent(&mut self, parent: &str, path: &str) -> Result<u32, WriteError> {
+        let number = self.paths.prim(if parent.is_empty() { "/" } else { parent })?;
         let known = number == 0 || self.taken.contains(&number);
         if known { Ok(number) } else { Err(WriteError::NoParent { path: path.to_owned() }) }
     }

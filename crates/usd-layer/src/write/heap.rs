@@ -30,10 +30,6 @@ impl<W: Write + Seek> Heap<W> {
         Ok(Heap { stream, start, position: head as u64, stored: HashMap::new(), checksum })
     }
 
-    pub fn position(&self) -> u64 {
-        self.position
-    }
-
     pub fn write(&mut self, bytes: &[u8]) -> Result<(), WriteError> {
         self.stream.write_all(bytes)?;
         self.position += bytes.len() as u64;

@@ -25,7 +25,7 @@ fn encode(values: impl Iterator<Item = i32> + Clone) -> Vec<u8> {
         let mut before = 0_i32;
         move |value: i32| value.wrapping_sub(std::mem::replace(&mut before, value))
     };
-    let Some(common) = commonest(values.clone().map(differences.clone())) else { return Vec::new() };
+    let Some(common) = commonest(values.clone().map(differences)) else { return Vec::new() };
     let count = values.clone().count();
     let codes_at = size_of::<i32>();
     let mut out = Vec::with_capacity(codes_at + count.div_ceil(4) + count);

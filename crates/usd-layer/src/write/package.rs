@@ -60,11 +60,12 @@ impl<W: Write + Seek> PackageWriter<W> {
     pub fn finish(self) -> Result<W, WriteError> {
         let (mut stream, length, checksum) = self.layer.finish_counted()?;
         let limit = u64::from(u32::MAX);
-        let size = u32::try_from(length).ok().filter(|&size| size < u32::MAX).ok_or(WriteError::TooLarge {
-            what: "bytes in a package's layer",
-            found: length,
-            limit: limit - 1,
-        })?;
+        let size =
+            u32::try_from(length).ok().filter(|&size| size < u32::MAX).ok_or(WriteError::TooLarge {
+                what: "bytes in a package's layer",
+                found: length,
+                limit: limit - 1,
+            })?;
         let mut facts = [0; 12];
         facts[..4].copy_from_slice(&checksum.unwrap_or_default().to_le_bytes());
         facts[4..8].copy_from_slice(&size.to_le_bytes());
@@ -106,11 +107,8 @@ fn directory_bytes(name: &str, facts: &[u8; 12], place: u64) -> Result<Vec<u8>, 
     out.extend([0; 16]);
     out.extend(name.bytes());
     let length = out.len() as u32;
-    let too_large = |_| WriteError::TooLarge {
-        what: "bytes in a package",
-        found: place,
-        limit: u64::from(u32::MAX),
-    };
+    let too_large =
+        |_| WriteError::TooLarge { what: "bytes in a package", found: place, limit: u64::from(u32::MAX) };
     let place = u32::try_from(place).map_err(too_large)?;
     out.extend(END);
     out.extend([0, 0, 0, 0, 1, 0, 1, 0]);

@@ -1,4 +1,4 @@
-//! USD as text: one BasisCurves prim of linear curves, at `/Groom/Strands`.
+//! USD: one BasisCurves prim of linear curves, at `/Groom/Strands`, in text, crates and packages alike.
 //!
 //! | groom | USD |
 //! |---|---|
@@ -7,16 +7,189 @@
 //! | color | `primvars:displayColor` (linear) |
 //! | transparency | `primvars:displayOpacity` = 1 - transparency |
 //! | id, root_uv | `primvars:id`, `primvars:st` |
-//! | any other | `primvars:NAME` |
+//! | velocity | `velocities`, per point and second |
+//! | any other (group, guide) | `primvars:NAME` |
 //! | constant, per strand, per vertex | interpolation `constant`, `uniform`, `vertex` |
 //! | unit, up axis | `metersPerUnit`, `upAxis`: nothing is turned or scaled |
 //!
 //! The curves are polylines, as grooms are, so `type` is `linear`; `basis` and `wrap` then mean nothing
 //! but are authored too, because readers differ on the fallbacks.
+//!
+//! In motion, `points`, `extent` and `velocities` are sampled at the same times, as UsdGeom wants; all else is
+//! said once.
+//!
+//! # Dialects
+//!
+//! What [`Dialect`](crate::Dialect) changes; all of them stay valid USD for everybody else.
+//!
+//! | for | what changes | why |
+//! |---|---|---|
+//! | Unreal | `GroomAPI` on `/Groom`; besides the primvars above `groom_id`, `groom_group_id`, `groom_guide` (int), `groom_root_uv` (float2) per strand and `groom_color` (float3) per point; other attributes become `groom_NAME` | Unreal makes a groom of prims with that schema, reads `groom_*` only, drops `color3f` without a word |
+//! | Karma | cubic catmullRom curves with a phantom point at both ends, 2 P0 - P1; what belongs to points is repeated there, velocities are extended like points | Karma takes `pinned` for `nonperiodic` and would lose the first and last span |
+//! | Houdini | besides the above `primvars:hairid` and `primvars:width` (diameters) | hair nodes look for these; `widths` alone arrives as `pscale` |
+//! | Blender | besides the above `primvars:surface_uv_coordinate` from root_uv | the name Blender's hair nodes look for the root by |
 
-mod crate_file;
-mod primvar;
+mod array;
+#[cfg(feature = "usdc")]
+mod crate_sink;
+mod curves;
+mod extent;
+mod material;
+mod motion;
+mod primvars;
+mod sink;
 mod stage;
+#[cfg(feature = "usda")]
+mod text_sink;
 
-pub(crate) use crate_file::{write as write_crate, write_animation};
-pub(crate) use stage::write as write_usda;
+use std::io::{Seek, Write};
+
+use groom::{Groom, names};
+use usd_layer::write::{CrateWriter, PackageWriter, WriteError};
+
+use crate::animation::Motion;
+use crate::usd::write::curves::Curves;
+use crate::usd::write::sink::Sink;
+use crate::usd::write::stage::Stage;
+use crate::{Dialect, Format, FormatError, Warning, WriteOptions};
+
+/// The layer's name in a package.
+const IN_PACKAGE: &str = "groom.usdc";
+
+/// Writes a still as text.
+#[cfg(feature = "usda")]
+pub(crate) fn write_usda(
+    groom: &Groom,
+    stream: &mut impl Write,
+    file: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
+    let mut warnings = Vec::new();
+    let job = Job { format: Format::Usda, file, options };
+    let curves = job.curves(groom, &mut warnings)?;
+    let mut sink = text_sink::TextSink::new(stream, &curves);
+    job.fill(&mut sink, &curves, None, &mut warnings)?;
+    sink.finish().map_err(|e| FormatError::io(file, e))?;
+    Ok(warnings)
+}
+
+/// Writes a still as a crate or a package.
+#[cfg(feature = "usdc")]
+pub(crate) fn write_crate(
+    groom: &Groom,
+    format: Format,
+    stream: &mut (impl Write + Seek),
+    file: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
+    let job = Job { format, file, options };
+    let mut warnings = Vec::new();
+    let curves = job.curves(groom, &mut warnings)?;
+    job.fill_crate(stream, &curves, None, &mut warnings)?;
+    Ok(warnings)
+}
+
+/// Writes a groom that moves.
+pub(crate) fn write_animation(
+    motion: Motion<'_>,
+    format: Format,
+    stream: &mut (impl Write + Seek),
+    file: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
+    let job = Job { format, file, options };
+    let mut warnings = Vec::new();
+    let curves = job.curves(motion.groom, &mut warnings)?;
+    match format {
+        #[cfg(feature = "usda")]
+        Format::Usda => {
+            let mut sink = text_sink::TextSink::new(stream, &curves);
+            job.fill(&mut sink, &curves, Some(motion), &mut warnings)?;
+            sink.finish().map_err(|e| FormatError::io(file, e))?;
+        }
+        #[cfg(feature = "usdc")]
+        _ => job.fill_crate(stream, &curves, Some(motion), &mut warnings)?,
+        #[cfg(not(feature = "usdc"))]
+        _ => {}
+    }
+    Ok(warnings)
+}
+
+/// What is to be written, and how.
+#[derive(Clone, Copy)]
+struct Job<'a> {
+    format: Format,
+    file: &'a str,
+    options: &'a WriteOptions,
+}
+
+impl Job<'_> {
+    fn curves<'a>(self, groom: &'a Groom, warnings: &mut Vec<Warning>) -> Result<Curves<'a>, FormatError> {
+        let phantoms = self.options.dialect == Some(Dialect::Karma);
+        let curves = Curves::new(groom, phantoms, self.format, self.file, warnings)?;
+        extent::refuse_too_wide(
+            &stage::positions(&curves),
+            &primvars::widths(&curves),
+            self.format,
+            self.file,
+        )?;
+        Ok(curves)
+    }
+
+    /// Says the stage to `sink`.
+    fn fill<S: Sink>(
+        self,
+        sink: &mut S,
+        curves: &Curves<'_>,
+        motion: Option<Motion<'_>>,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<(), FormatError> {
+        let Job { format, file, options } = self;
+        let samples = motion.map(|motion| motion::store(sink, curves, motion, format, file)).transpose()?;
+        let still_velocity = curves.groom.attribute(names::VELOCITY).is_some();
+        if still_velocity && samples.as_ref().is_some_and(|samples| samples.velocities.is_empty()) {
+            // Velocities count only with a sample wherever the points have one.
+            let name = names::VELOCITY.to_owned();
+            warnings.push(Warning::AttributeLeftOut { format, name });
+        }
+        let primvars = primvars::all(curves, options.dialect, format, warnings);
+        let look = options.look.as_ref();
+        let stage = Stage { curves, primvars: &primvars, dialect: options.dialect, look };
+        stage.write(sink, samples.as_ref()).map_err(|e| failed(e, format, file))
+    }
+
+    #[cfg(feature = "usdc")]
+    fn fill_crate(
+        self,
+        stream: &mut (impl Write + Seek),
+        curves: &Curves<'_>,
+        motion: Option<Motion<'_>>,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<(), FormatError> {
+        let failed = |e: WriteError| failed(e, self.format, self.file);
+        if self.format == Format::Usdz {
+            let mut package = PackageWriter::new(stream, IN_PACKAGE).map_err(failed)?;
+            let mut sink = crate_sink::CrateSink::new(package.layer());
+            self.fill(&mut sink, curves, motion, warnings)?;
+            package.finish().map_err(failed)?;
+        } else {
+            let mut layer = CrateWriter::new(stream).map_err(failed)?;
+            let mut sink = crate_sink::CrateSink::new(&mut layer);
+            self.fill(&mut sink, curves, motion, warnings)?;
+            layer.finish().map_err(failed)?;
+        }
+        Ok(())
+    }
+}
+
+fn failed(error: WriteError, format: Format, file: &str) -> FormatError {
+    let file = file.to_owned();
+    match error {
+        WriteError::Io(source) => FormatError::Io { file, source },
+        WriteError::TooLarge { what, found, limit } => {
+            FormatError::TooLarge { file, format, what, found, limit }
+        }
+        // Paths and prims are this module's own; should one be broken, it is told as it is.
+        other => FormatError::Io { file, source: std::io::Error::other(other) },
+    }
+}

@@ -1,164 +1,133 @@
-//! The stage and its curves, streamed.
+//! The stage: the layer's metadata, the Xform, the curves, their material.
 
-use std::io::{self, Write};
+use groom::{UpAxis, names};
+use usd_layer::write::WriteError;
 
-use glam::Vec3;
-use groom::{Groom, UpAxis};
+use crate::usd::write::array::{Array, Rows, Shape};
+use crate::usd::write::curves::Curves;
+use crate::usd::write::primvars::{Primvar, widths};
+use crate::usd::write::sink::{Content, Declaration, Head, Single, Sink};
+use crate::usd::write::{extent, material};
+use crate::{Dialect, Look};
 
-use crate::drawable::Drawable;
-use crate::numbers::{TextOut, shortest};
-use crate::usd::write::primvar;
-use crate::{Format, FormatError, Warning, WriteOptions};
+/// Frames a second of a still groom: a still has no time samples, and this is the usual rate of film.
+const STILL_RATE: f64 = 24.0;
 
-/// Indentation of the attributes of the curves.
-pub(super) const INDENT: &[u8] = b"        ";
-
-pub(crate) fn write(
-    groom: &Groom,
-    stream: &mut impl Write,
-    file: &str,
-    _options: &WriteOptions,
-) -> Result<Vec<Warning>, FormatError> {
-    let mut warnings = Vec::new();
-    let drawable = Drawable::new(groom, Format::Usda, file, &mut warnings)?;
-    refuse_too_wide(drawable, file)?;
-    let mut out = TextOut::new(stream);
-    (|| {
-        out.push(header(groom).as_bytes());
-        curves(drawable, &mut out)?;
-        primvar::write_all(drawable, &mut out, &mut warnings)?;
-        out.push(b"    }\n}\n");
-        out.finish()
-    })()
-    .map_err(|e: io::Error| FormatError::io(file, e))?;
-    Ok(warnings)
+/// What is written.
+pub(super) struct Stage<'a> {
+    pub curves: &'a Curves<'a>,
+    pub primvars: &'a [Primvar<'a>],
+    pub dialect: Option<Dialect>,
+    pub look: Option<&'a Look>,
 }
 
-fn header(groom: &Groom) -> String {
-    let up = match groom.up_axis {
-        UpAxis::Y => 'Y',
-        UpAxis::Z => 'Z',
-    };
-    // A still groom has no time samples; the rate is the usual one of film.
-    format!(
-        r#"#usda 1.0
-(
-    defaultPrim = "Groom"
-    doc = "Written by groomkit {version}"
-    metersPerUnit = {unit}
-    timeCodesPerSecond = 24
-    upAxis = "{up}"
-)
-
-def Xform "Groom" (
-    kind = "component"
-)
-{{
-    def BasisCurves "Strands"
-    {{
-        uniform token type = "linear"
-        uniform token basis = "catmullRom"
-        uniform token wrap = "nonperiodic"
-"#,
-        version = env!("CARGO_PKG_VERSION"),
-        unit = shortest(groom.meters_per_unit),
-    )
+/// What changes over time, put aside with the sink.
+pub(super) struct Samples<S> {
+    pub frame_rate: f64,
+    /// Time codes of the first and the last frame.
+    pub range: (f64, f64),
+    pub points: Vec<(f64, S)>,
+    pub extents: Vec<(f64, S)>,
+    /// Empty when the frames have none.
+    pub velocities: Vec<(f64, S)>,
 }
 
-fn curves<W: Write>(drawable: Drawable<'_>, out: &mut TextOut<'_, W>) -> io::Result<()> {
-    let groom = drawable.groom;
-    out.push(INDENT);
-    out.push(b"int[] curveVertexCounts = [");
-    for (place, (_, range)) in drawable.strands().enumerate() {
-        separate(out, place, place.is_multiple_of(32));
-        out.push(range.len().to_string().as_bytes());
-        out.hand_on()?;
-    }
-    end_array(out, None);
-    out.push(INDENT);
-    out.push(b"point3f[] points = [");
-    per_vertex(drawable, out, |out, _, vertex| tuple(out, &groom.positions()[vertex].to_array()))?;
-    end_array(out, None);
-    let radii = groom.radii();
-    out.push(INDENT);
-    out.push(b"float[] widths = [");
-    per_vertex(drawable, out, |out, strand, vertex| out.float(2.0 * radii.get(strand, vertex)))?;
-    end_array(out, Some("vertex"));
-    let (min, max) = extent(drawable);
-    out.push(INDENT);
-    out.push(b"float3[] extent = [");
-    tuple(out, &min.to_array());
-    out.push(b", ");
-    tuple(out, &max.to_array());
-    out.push(b"]\n");
-    Ok(())
-}
-
-/// Bounds of the points grown by half the largest width, as UsdGeomCurves computes it.
-fn extent(drawable: Drawable<'_>) -> (Vec3, Vec3) {
-    let radii = drawable.groom.radii();
-    let (mut min, mut max, mut radius) = (Vec3::INFINITY, Vec3::NEG_INFINITY, 0.0_f32);
-    for (strand, vertex) in drawable.vertices() {
-        let point = drawable.groom.positions()[vertex];
-        min = min.min(point);
-        max = max.max(point);
-        radius = radius.max(radii.get(strand, vertex));
-    }
-    (min - radius, max + radius)
-}
-
-/// Widths and the extent must be finite too, or the file would hold `inf`.
-fn refuse_too_wide(drawable: Drawable<'_>, file: &str) -> Result<(), FormatError> {
-    let radii = drawable.groom.radii();
-    let (min, max) = extent(drawable);
-    let widths = drawable.vertices().all(|(strand, vertex)| (2.0 * radii.get(strand, vertex)).is_finite());
-    if widths && min.is_finite() && max.is_finite() && drawable.groom.meters_per_unit.is_finite() {
-        return Ok(());
-    }
-    let what = "holds widths and an extent, and this groom's leave 32-bit floats";
-    Err(FormatError::Unsupported { file: file.to_owned(), format: Format::Usda, what })
-}
-
-/// One value a point, one line a strand.
-pub(super) fn per_vertex<W: Write>(
-    drawable: Drawable<'_>,
-    out: &mut TextOut<'_, W>,
-    push: impl Fn(&mut TextOut<'_, W>, usize, usize),
-) -> io::Result<()> {
-    let mut place = 0;
-    for (strand, range) in drawable.strands() {
-        let first = range.start;
-        for vertex in range {
-            separate(out, place, vertex == first);
-            push(out, strand, vertex);
-            place += 1;
-            out.hand_on()?;
+impl Stage<'_> {
+    /// Says all of it to `sink`.
+    pub fn write<S: Sink>(
+        &self,
+        sink: &mut S,
+        samples: Option<&Samples<S::Stored>>,
+    ) -> Result<(), WriteError> {
+        self.layer(sink, samples)?;
+        let is_unreal = self.dialect == Some(Dialect::Unreal);
+        let apis: &[&str] = if is_unreal { &["GroomAPI"] } else { &[] };
+        sink.begin(&Head { name: "Groom", type_name: "Xform", apis, is_component: true })?;
+        let apis: &[&str] = if self.look.is_some() { &["MaterialBindingAPI"] } else { &[] };
+        sink.begin(&Head { name: "Strands", type_name: "BasisCurves", apis, is_component: false })?;
+        self.strands(sink, samples)?;
+        if self.look.is_some() {
+            sink.relationship("material:binding", material::PATH)?;
         }
+        sink.end()?;
+        if let Some(look) = self.look {
+            material::write(sink, look, self.curves.groom.colors().is_some())?;
+        }
+        sink.end()
     }
-    Ok(())
+
+    fn layer<S: Sink>(&self, sink: &mut S, samples: Option<&Samples<S::Stored>>) -> Result<(), WriteError> {
+        let groom = self.curves.groom;
+        let rate = samples.map_or(STILL_RATE, |samples| samples.frame_rate);
+        let up = match groom.up_axis {
+            UpAxis::Y => "Y",
+            UpAxis::Z => "Z",
+        };
+        let doc = concat!("Written by groomkit ", env!("CARGO_PKG_VERSION"));
+        let mut metadata = vec![("defaultPrim", Single::Token("Groom")), ("doc", Single::Text(doc))];
+        if let Some(samples) = samples {
+            metadata.push(("endTimeCode", Single::Double(samples.range.1)));
+            metadata.push(("framesPerSecond", Single::Double(rate)));
+        }
+        metadata.push(("metersPerUnit", Single::Double(groom.meters_per_unit)));
+        if let Some(samples) = samples {
+            metadata.push(("startTimeCode", Single::Double(samples.range.0)));
+        }
+        metadata.push(("timeCodesPerSecond", Single::Double(rate)));
+        metadata.push(("upAxis", Single::Token(up)));
+        sink.layer(&metadata)
+    }
+
+    fn strands<S: Sink>(&self, sink: &mut S, samples: Option<&Samples<S::Stored>>) -> Result<(), WriteError> {
+        let curves = self.curves;
+        let token = |word| Content::Single(Single::Token(word));
+        let kind = if curves.phantoms { "cubic" } else { "linear" };
+        sink.attribute(Declaration::uniform("token", "type"), token(kind))?;
+        sink.attribute(Declaration::uniform("token", "basis"), token("catmullRom"))?;
+        sink.attribute(Declaration::uniform("token", "wrap"), token("nonperiodic"))?;
+        let counts = Array { curves, rows: Rows::Ints(&curves.counts), shape: Shape::FIXED };
+        sink.attribute(Declaration::new("int[]", "curveVertexCounts"), Content::Array(&counts))?;
+
+        let points = positions(curves);
+        let moving = samples.map(|samples| &samples.points[..]);
+        sink.attribute(Declaration::new("point3f[]", "points"), still_or(&points, moving))?;
+        if let Some(samples) = samples.filter(|samples| !samples.velocities.is_empty()) {
+            let velocities = Content::Samples(&samples.velocities);
+            sink.attribute(Declaration::new("vector3f[]", "velocities"), velocities)?;
+        } else if let (None, Some(velocities)) = (samples, velocities(curves)) {
+            sink.attribute(Declaration::new("vector3f[]", "velocities"), Content::Array(&velocities))?;
+        }
+        let widths = widths(curves);
+        let per_vertex =
+            Declaration { interpolation: Some("vertex"), ..Declaration::new("float[]", "widths") };
+        sink.attribute(per_vertex, Content::Array(&widths))?;
+        let corners = extent::of(&points, &widths);
+        let extent = Array { curves, rows: Rows::Float3s(&corners), shape: Shape::FIXED };
+        let moving = samples.map(|samples| &samples.extents[..]);
+        sink.attribute(Declaration::new("float3[]", "extent"), still_or(&extent, moving))?;
+
+        for Primvar { name, type_name, array } in self.primvars {
+            let interpolation = Some(array.interpolation());
+            let declaration = Declaration { interpolation, ..Declaration::new(type_name, name) };
+            sink.attribute(declaration, Content::Array(array))?;
+        }
+        Ok(())
+    }
 }
 
-/// What stands before the value at `place` of an array.
-pub(super) fn separate<W: Write>(out: &mut TextOut<'_, W>, place: usize, new_line: bool) {
-    match (place, new_line) {
-        (0, _) => {}
-        (_, true) => out.push(b",\n            "),
-        (_, false) => out.push(b", "),
-    }
+fn still_or<'a, S>(still: &'a Array<'a>, samples: Option<&'a [(f64, S)]>) -> Content<'a, S> {
+    samples.map_or(Content::Array(still), Content::Samples)
 }
 
-pub(super) fn end_array<W: Write>(out: &mut TextOut<'_, W>, interpolation: Option<&str>) {
-    out.push(b"]");
-    if let Some(interpolation) = interpolation {
-        out.push(b" (\n            interpolation = \"");
-        out.push(interpolation.as_bytes());
-        out.push(b"\"\n        )");
-    }
-    out.push(b"\n");
+/// The groom's own positions.
+pub(super) fn positions<'a>(curves: &'a Curves<'a>) -> Array<'a> {
+    let rows = Rows::Float3s(bytemuck::cast_slice(curves.groom.positions()));
+    Array { curves, rows, shape: Shape::points() }
 }
 
-pub(super) fn tuple<W: Write>(out: &mut TextOut<'_, W>, values: &[f32]) {
-    out.push(b"(");
-    out.floats(values, b", ");
-    out.push(b")");
+/// The groom's own velocities, one a point whatever they belong to.
+fn velocities<'a>(curves: &'a Curves<'a>) -> Option<Array<'a>> {
+    let attribute = curves.groom.attribute(names::VELOCITY)?;
+    let shape = Shape { from: attribute.domain, ..Shape::points() };
+    Some(Array { curves, rows: Rows::from(&attribute.values), shape })
 }
