@@ -82,6 +82,8 @@ mod numbers;
 mod obj;
 mod options;
 mod output;
+#[cfg(any(feature = "text", feature = "obj"))]
+mod parse_number;
 #[cfg(feature = "pbrt")]
 mod pbrt;
 #[cfg(feature = "ply")]

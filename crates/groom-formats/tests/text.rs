@@ -158,6 +158,87 @@ fn faults_are_placed() {
     assert_eq!(told, "memory: line 2, column 3: found `x`, expected a number");
 }
 
+/// Some megabytes of strands of all lengths, one of them longer than what one thread takes at a time, blank
+/// lines in ones and twos.
+fn long_text() -> (String, Vec<u32>) {
+    let (mut text, mut offsets, mut points) = (String::new(), vec![0], 0);
+    for strand in 0..4000_u32 {
+        let length = if strand == 1500 { 50_000 } else { 1 + strand * strand % 29 };
+        for i in 0..length {
+            points += 1;
+            text.push_str(&format!("{points} {}.{} -{i} 0.5\n", strand % 100, i * 7));
+        }
+        text.push_str(if strand % 7 == 0 { "\n \n" } else { "\n" });
+        offsets.push(points);
+    }
+    (text, offsets)
+}
+
+/// Gives what it has in bits of odd lengths.
+struct Trickle<'a>(&'a [u8]);
+
+impl std::io::Read for Trickle<'_> {
+    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
+        let count = buffer.len().min(self.0.len()).min(77_777);
+        let (now, later) = self.0.split_at(count);
+        buffer[..count].copy_from_slice(now);
+        self.0 = later;
+        Ok(count)
+    }
+}
+
+#[test]
+fn long_files_are_read_alike_on_any_number_of_threads() {
+    let (text, offsets) = long_text();
+    assert!(text.len() > 2_000_000);
+    for threads in [1, 2, 7] {
+        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+        for whole in [true, false] {
+            let read = || match whole {
+                true => from_bytes(Format::Text, text.as_bytes()),
+                false => text::read(Trickle(text.as_bytes()), "memory", &ReadOptions::default()),
+            };
+            let groom = pool.install(read).unwrap().groom;
+            assert_eq!(groom.offsets(), offsets, "{threads} threads");
+            let numbers = text.lines().filter_map(|line| line.split(' ').next().unwrap().parse::<f32>().ok());
+            assert!(numbers.eq(groom.positions().iter().map(|p| p.x)));
+        }
+    }
+}
+
+#[test]
+fn faults_far_into_a_file_are_placed() {
+    let (text, _) = long_text();
+    let lines: Vec<&str> = text.lines().collect();
+    for at in [2, 9_999, 60_000, 100_000, lines.len()] {
+        for (line, expected) in [("1 2 x 0.5", (5, "`x`")), ("1 2 3", (1, "3 numbers"))] {
+            let mut bad = lines.clone();
+            bad[at - 1] = line;
+            // A later fault is not the one to tell.
+            bad.push("y");
+            match from_bytes(Format::Text, bad.join("\n").as_bytes()) {
+                Err(FormatError::Text { line, column, found, .. }) => {
+                    assert_eq!((line, (column, found.as_str())), (at as u64, expected));
+                }
+                other => panic!("{at}: {other:?}"),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_long_line_far_into_a_file_is_refused() {
+    let (mut text, _) = long_text();
+    let line = text.lines().count() as u64 + 1;
+    text.push_str(&"1".repeat(300_000));
+    let error = from_bytes(Format::Text, text.as_bytes()).unwrap_err();
+    assert!(error.to_string().contains(&format!("line {line}, column 1: found a line of over")), "{error}");
+    // The last line a file may have, to the byte.
+    let longest = format!("0 0 0 0.5\n0 0 0 {:>width$}", 0.5, width = (1 << 16) - 7);
+    assert_eq!(groom(&longest).point_count(), 2);
+    assert!(from_bytes(Format::Text, format!("{longest} ").as_bytes()).is_err());
+}
+
 #[test]
 fn a_file_without_line_ends_does_not_fill_the_memory() {
     let endless = std::io::repeat(b'1');

@@ -22,6 +22,8 @@
 //! eight columns (a warning; they are not read). Lines that end with CR alone are refused.
 //! All lines must have the same number of columns.
 
+mod lines;
+mod pieces;
 mod read;
 mod write;
 
