@@ -69,6 +69,7 @@ mod data;
 mod drawable;
 mod error;
 mod format;
+mod frames;
 #[cfg(feature = "gltf")]
 mod gltf;
 #[cfg(feature = "hair")]
@@ -104,6 +105,7 @@ mod write;
 pub use animation::{Frame, write_animation};
 pub use error::FormatError;
 pub use format::Format;
+pub use frames::{Frames, read_frames};
 pub use options::{Dialect, HairExtras, Loaded, Look, Mesh, ReadOptions, WriteOptions};
 pub use output::Output;
 pub use read::{read, read_from};

@@ -28,6 +28,22 @@ pub enum Warning {
         /// The radius every strand got.
         radius: f32,
     },
+    /// An attribute of the file has no place in a groom.
+    #[error("the attribute `{name}` is not read: {why}")]
+    AttributeNotRead {
+        /// Its name in the file.
+        name: String,
+        /// Why not.
+        why: String,
+    },
+    /// A USD layer pulls in other layers or prims, which are not read.
+    #[error(
+        "{prims} references, payloads or sublayers are not followed; flatten the stage first: tools/usd/bake.py"
+    )]
+    CompositionNotFollowed {
+        /// How many prims and sublayers.
+        prims: usize,
+    },
     /// The format has no place for an attribute.
     #[error("{format} cannot hold the attribute `{name}`; it is left out")]
     AttributeLeftOut {

@@ -44,7 +44,7 @@ pub(crate) fn numbers<T: Number, const N: usize>(
     // At most one element a comma, and one after the last: for that many the bytes are there.
     let commas = cursor.rest().iter().filter(|&&byte| byte == b',').count();
     let mut elements = Vec::with_capacity((commas + 1).div_ceil(N));
-    let whole = array.element.scalar.is_integer();
+    let scalar = array.element.scalar;
     loop {
         cursor.skip();
         if cursor.here().is_none() {
@@ -52,17 +52,17 @@ pub(crate) fn numbers<T: Number, const N: usize>(
         }
         let mut element = [T::default(); N];
         match array.element.shape {
-            Shape::Single => element[0] = number(&mut cursor, whole)?,
+            Shape::Single => element[0] = number(&mut cursor, scalar)?,
             Shape::Matrix => {
                 let side = N.isqrt().max(1);
                 cursor.expect(b'(', "a matrix in ( )")?;
                 for (place, row) in element.chunks_mut(side).enumerate() {
                     separate(&mut cursor, place)?;
-                    tuple(&mut cursor, row, whole)?;
+                    tuple(&mut cursor, row, scalar)?;
                 }
                 cursor.expect(b')', "the end of a matrix, )")?;
             }
-            Shape::Vector | Shape::Quaternion => tuple(&mut cursor, &mut element, whole)?,
+            Shape::Vector | Shape::Quaternion => tuple(&mut cursor, &mut element, scalar)?,
         }
         // With a lone comma at the end there is one more than elements, never fewer.
         elements.push(element);
@@ -76,19 +76,19 @@ fn separate(cursor: &mut Cursor<'_>, place: usize) -> Result<(), ReadError> {
     if place == 0 { Ok(()) } else { cursor.expect(b',', "`,` and another number") }
 }
 
-fn tuple<T: Number>(cursor: &mut Cursor<'_>, to: &mut [T], whole: bool) -> Result<(), ReadError> {
+fn tuple<T: Number>(cursor: &mut Cursor<'_>, to: &mut [T], scalar: Scalar) -> Result<(), ReadError> {
     cursor.expect(b'(', "numbers in ( )")?;
     for (place, to) in to.iter_mut().enumerate() {
         separate(cursor, place)?;
-        *to = number(cursor, whole)?;
+        *to = number(cursor, scalar)?;
     }
     cursor.expect(b')', "`)` after as many numbers as the type has")
 }
 
 #[inline]
-fn number<T: Number>(cursor: &mut Cursor<'_>, whole: bool) -> Result<T, ReadError> {
+fn number<T: Number>(cursor: &mut Cursor<'_>, scalar: Scalar) -> Result<T, ReadError> {
     cursor.skip();
-    if whole {
+    if scalar.is_integer() {
         return match numbers::integer(cursor.rest()) {
             Some((value, len)) => {
                 let read = T::from_integer(value).ok_or_else(|| cursor.fault("a number that fits"))?;
@@ -99,7 +99,8 @@ fn number<T: Number>(cursor: &mut Cursor<'_>, whole: bool) -> Result<T, ReadErro
         };
     }
     let (value, len) = numbers::float(cursor.rest()).ok_or_else(|| cursor.fault("a number"))?;
-    let read = T::from_float(value).ok_or_else(|| cursor.fault("a type that holds fractions"))?;
+    let read = T::from_float(numbers::rounded(value, scalar))
+        .ok_or_else(|| cursor.fault("a type that holds fractions"))?;
     cursor.at += len;
     Ok(read)
 }

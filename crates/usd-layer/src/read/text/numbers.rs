@@ -1,5 +1,9 @@
 //! Decimal numbers, quickly and to the nearest: as OpenUSD, to 64 bits first.
 
+use half::f16;
+
+use crate::Scalar;
+
 /// Powers of ten that 64-bit floats hold exactly.
 const EXACT: [f64; 23] = [
     1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18,
@@ -62,6 +66,16 @@ fn special(bytes: &[u8], at: usize, negative: bool) -> Option<(f64, usize)> {
         _ => return None,
     };
     Some((if negative { -value } else { value }, at + 3))
+}
+
+/// What is left of a number in a type: a `half` or `float` is rounded to it.
+#[inline]
+pub(super) fn rounded(value: f64, scalar: Scalar) -> f64 {
+    match scalar {
+        Scalar::Float => (value as f32).into(),
+        Scalar::Half => f16::from_f32(value as f32).into(),
+        _ => value,
+    }
 }
 
 /// The whole number at the start of the bytes and how many of them it takes.

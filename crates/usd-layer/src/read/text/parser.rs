@@ -256,7 +256,9 @@ impl<'a> Parser<'a> {
                     attribute.metadata.push(("spline".into(), Value::Unsupported("spline".into())));
                 }
                 _ => {
-                    return Err(self.cursor.fault_at(at, "timeSamples, connect, default or spline after `.`"));
+                    return Err(self
+                        .cursor
+                        .fault_at(at, "timeSamples, connect, default or spline after `.`"));
                 }
             }
         } else if !part.is_empty() {

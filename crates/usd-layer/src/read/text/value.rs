@@ -60,8 +60,7 @@ fn single(parser: &mut Parser<'_>, element: Element) -> Result<Value, ReadError>
             None => float(cursor).map(Value::Float),
         },
         // As the file format's own reader: to 64 bits, then to the type's.
-        Scalar::Float => Ok(Value::Float((float(cursor)? as f32).into())),
-        _ => Ok(Value::Float(float(cursor)?)),
+        scalar => Ok(Value::Float(numbers::rounded(float(cursor)?, scalar))),
     }
 }
 
@@ -88,7 +87,7 @@ fn tuple(cursor: &mut Cursor<'_>, element: Element, values: &mut Vec<f64>) -> Re
             cursor.expect(b'(', "numbers in ( )")?;
         }
         let value = float(cursor)?;
-        values.push(if element.scalar == Scalar::Float { (value as f32).into() } else { value });
+        values.push(numbers::rounded(value, element.scalar));
         if place % row == row - 1 {
             cursor.expect(b')', "`)` after as many numbers as the type has")?;
         }
