@@ -78,8 +78,10 @@ fn same_ends(groom: &Groom, curves: &[Value]) {
         let mut first = 0;
         for count in curve["counts"].as_array().unwrap() {
             let count = count.as_u64().unwrap() as usize;
-            let ends =
-                [&points[3 * first..3 * first + 3], &points[3 * (first + count) - 3..3 * (first + count)]];
+            // A bezier curve ends with its last whole span.
+            let bezier = curve["basis"] == "bezier" && curve["type"] == "cubic";
+            let last = first + if bezier { (count - 1) / 3 * 3 } else { count - 1 };
+            let ends = [&points[3 * first..3 * first + 3], &points[3 * last..3 * last + 3]];
             let found = groom.strand(strand);
             let linear = curve["type"] == "linear";
             if linear {

@@ -34,10 +34,9 @@ impl Shape {
         match (self.basis, self.wrap) {
             (None, Wrap::Periodic) => enough(1).map(|_| points),
             (None, _) => enough(1),
-            (Some(Basis::Bezier), Wrap::Periodic) => {
-                Some(points / 3).filter(|_| points >= 3 && points % 3 == 0)
-            }
-            (Some(Basis::Bezier), _) => enough(4).filter(|more| more % 3 == 0).map(|more| more / 3 + 1),
+            // Points behind the last whole span belong to none, as renderers have it.
+            (Some(Basis::Bezier), Wrap::Periodic) => enough(3).map(|more| more / 3 + 1),
+            (Some(Basis::Bezier), _) => enough(4).map(|more| more / 3 + 1),
             (Some(_), Wrap::Periodic) => enough(3).map(|_| points),
             (Some(_), Wrap::Nonperiodic) => enough(4).map(|more| more + 1),
             (Some(_), Wrap::Pinned) => enough(2).map(|more| more + 1),
@@ -48,8 +47,8 @@ impl Shape {
     fn expected(self) -> &'static str {
         match (self.basis, self.wrap) {
             (None, _) => "1 or more",
-            (Some(Basis::Bezier), Wrap::Periodic) => "3, 6, 9 and so on for periodic bezier curves",
-            (Some(Basis::Bezier), _) => "4, 7, 10 and so on for bezier curves",
+            (Some(Basis::Bezier), Wrap::Periodic) => "3 or more for periodic bezier curves",
+            (Some(Basis::Bezier), _) => "4 or more for bezier curves",
             (Some(_), Wrap::Periodic) => "3 or more for periodic curves",
             (Some(_), Wrap::Nonperiodic) => "4 or more for curves that are not pinned",
             (Some(_), Wrap::Pinned) => "2 or more for pinned curves",
