@@ -103,7 +103,7 @@ pub(crate) fn vec3_at(record: &[u8], at: usize) -> Vec3 {
 }
 
 /// Writes positions as little-endian floats.
-#[cfg(feature = "data")]
+#[cfg(any(feature = "data", feature = "ply"))]
 pub(crate) fn write_points(stream: &mut impl Write, points: &[Vec3]) -> io::Result<()> {
     if cfg!(target_endian = "little") {
         return stream.write_all(bytemuck::cast_slice(points));

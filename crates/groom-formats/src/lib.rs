@@ -59,6 +59,8 @@ mod assemble;
 mod blocks;
 #[cfg(any(feature = "data", feature = "ct2hair", feature = "tfx", feature = "monohair", feature = "ply"))]
 mod bytes;
+#[cfg(any(feature = "ply", feature = "obj"))]
+mod chains;
 mod check;
 #[cfg(any(feature = "data", feature = "ct2hair"))]
 mod counted_strands;

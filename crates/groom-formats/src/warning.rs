@@ -112,6 +112,16 @@ pub enum Warning {
         /// How many.
         bytes: u64,
     },
+    /// Parts of a file that are no strands, or say nothing that is understood.
+    #[error("{count} of {what} in the {format} file are not read")]
+    NotRead {
+        /// The format read.
+        format: Format,
+        /// What they are called in the file.
+        what: String,
+        /// How many.
+        count: u64,
+    },
     /// Strands of one point have no line to draw.
     #[error("{format} cannot hold strands of one point; {strands} are left out")]
     OnePointStrandsLeftOut {

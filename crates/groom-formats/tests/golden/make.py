@@ -65,7 +65,77 @@ def tfx4():
     return head + positions + uvs
 
 
-FILES = {"lock.data": data, "lock.bin": ct2hair, "monohair.hair": monohair, "v3.tfx": tfx3, "v4.tfx": tfx4}
+# Positions and colours of the points of two strands, of three points and of one.
+PLY_POINTS = [
+    ((0, 0, 0), (255, 0, 51)),
+    ((0, 1, 0), (255, 0, 51)),
+    ((0.5, 2, 0), (0, 0, 0)),
+    ((1, 0, 0.25), (0, 255, 0)),
+]
+
+
+def ply(kind, order=""):
+    """hairutil's PLY with edges, as happly writes it, and a face behind it."""
+    head = f"ply\nformat {kind} 1.0\ncomment made by hand\nelement vertex 4\n"
+    for of, name in [("float", n) for n in "xyz"] + [("uchar", n) for n in ("red", "green", "blue")]:
+        head += f"property {of} {name}\n"
+    head += "property float thickness\nelement strand 2\nproperty ushort nsegs\n"
+    head += "element edge 2\nproperty int vertex1\nproperty int vertex2\n"
+    head += "element face 1\nproperty list uchar int vertex_indices\nproperty double area\nend_header\n"
+    vertices = [(*p, *c, 0.25 * i) for i, (p, c) in enumerate(PLY_POINTS)]
+    edges, face = [(0, 1), (1, 2)], (3, 0, 1, 2, 0.5)
+    if order:
+        body = b"".join(struct.pack(order + "3f3Bf", *v) for v in vertices) + struct.pack(order + "2H", 2, 0)
+        body += b"".join(struct.pack(order + "2i", *e) for e in edges) + struct.pack(order + "B3id", *face)
+        return head.encode() + body
+    rows = vertices + [(2,), (0,)] + edges + [face]
+    return (head + "".join(" ".join(map(str, row)) + "\n" for row in rows)).encode()
+
+
+def bare():
+    """trimesh's PointCloud.export, as Neural Haircut and HAAR use it: positions and colours of 2 x 3 points."""
+    head = "ply\nformat binary_little_endian 1.0\ncomment https://github.com/mikedh/trimesh\nelement vertex 6\n"
+    head += "".join(f"property float {n}\n" for n in "xyz")
+    head += "".join(f"property uchar {n}\n" for n in ("red", "green", "blue", "alpha")) + "end_header\n"
+    return head.encode() + b"".join(struct.pack("<3f4B", i, 2 * i, 0, 255, 0, 0, 255) for i in range(6))
+
+
+def edges():
+    """Two strands told by their edges alone, the second before the first."""
+    return b"""ply
+format ascii 1.0
+element vertex 5
+property double x
+property double y
+property double z
+property float quality
+element edge 3
+property int vertex1
+property int vertex2
+end_header
+0 0 0 0.5
+0 1 0 0.25
+0 2 0 0.125
+1 0 0 1
+1 1 0 2
+3 4
+0 1
+1 2
+"""
+
+
+FILES = {
+    "ascii.ply": lambda: ply("ascii"),
+    "little.ply": lambda: ply("binary_little_endian", "<"),
+    "big.ply": lambda: ply("binary_big_endian", ">"),
+    "bare.ply": bare,
+    "edges.ply": edges,
+    "lock.data": data,
+    "lock.bin": ct2hair,
+    "monohair.hair": monohair,
+    "v3.tfx": tfx3,
+    "v4.tfx": tfx4,
+}
 
 for name, make in FILES.items():
     (HERE / name).write_bytes(make())
