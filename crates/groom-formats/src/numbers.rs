@@ -39,6 +39,23 @@ impl Text {
         push_shortest(&mut self.bytes, self.digits.format_finite(value));
     }
 
+    /// A whole number.
+    #[allow(dead_code)] // not every format that writes numbers has some that are whole
+    #[inline]
+    pub(crate) fn integer(&mut self, mut value: u64) {
+        let mut digits = [b'0'; 20];
+        let mut start = digits.len();
+        loop {
+            start -= 1;
+            digits[start] = b'0' + (value % 10) as u8;
+            value /= 10;
+            if value == 0 {
+                break;
+            }
+        }
+        self.bytes.extend_from_slice(&digits[start..]);
+    }
+
     /// `values` with `between` between them.
     #[inline]
     pub(crate) fn floats(&mut self, values: &[f32], between: &[u8]) {

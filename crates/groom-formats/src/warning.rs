@@ -122,6 +122,14 @@ pub enum Warning {
         /// How many.
         count: u64,
     },
+    /// The format holds one value where the groom has many.
+    #[error("{format} holds one {name} for all strands; the mean is written")]
+    Averaged {
+        /// The format written.
+        format: Format,
+        /// The attribute's name.
+        name: &'static str,
+    },
     /// Strands of one point have no line to draw.
     #[error("{format} cannot hold strands of one point; {strands} are left out")]
     OnePointStrandsLeftOut {
