@@ -102,7 +102,7 @@ mod tests {
             chains.segment(from, to);
         }
         chains.begin();
-        [1, 5, 6].map(|vertex| chains.point(vertex));
+        [1, 5, 6].iter().for_each(|&vertex| chains.point(vertex));
         // A strand that was given whole is whole.
         chains.segment(6, 7);
         let (offsets, indices) = chains.into_offsets();

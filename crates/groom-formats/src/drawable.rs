@@ -37,9 +37,4 @@ impl<'a> Drawable<'a> {
         let ranges = (0..self.groom.strand_count()).map(move |i| (i, self.groom.strand_range(i)));
         ranges.filter(|(_, range)| range.len() >= 2)
     }
-
-    /// The points kept: strand and point, as indices in the groom.
-    pub(crate) fn vertices(self) -> impl Iterator<Item = (usize, usize)> + 'a {
-        self.strands().flat_map(|(strand, range)| range.map(move |vertex| (strand, vertex)))
-    }
 }
