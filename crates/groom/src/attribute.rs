@@ -18,6 +18,12 @@ pub mod names {
     pub const GROUP: &str = "group";
     /// Whether a strand is a guide that others follow, 1 or 0: int per strand.
     pub const GUIDE: &str = "guide";
+    /// The `id` of the guide a strand follows most closely: int per strand.
+    pub const CLOSEST_GUIDE: &str = "closest_guide";
+    /// How much melanin the hair has, 0 white .. 1 black: float.
+    pub const MELANIN: &str = "melanin";
+    /// How much of the melanin is red, 0 .. 1: float.
+    pub const REDNESS: &str = "redness";
     /// Velocity of a point, in the groom's units per second: vec3 per vertex.
     pub const VELOCITY: &str = "velocity";
 }

@@ -2,6 +2,7 @@
 
 use glam::Vec3;
 
+use crate::length::arc_lengths;
 use crate::{Attribute, Domain, Groom, GroomError, Values, names};
 
 impl Groom {
@@ -52,21 +53,15 @@ impl Groom {
     /// strand without length, and 0 on a single point.
     #[must_use]
     pub fn along_strands(&self) -> Vec<f32> {
-        let mut along = Vec::with_capacity(self.point_count());
+        let (mut along, mut lengths) = (Vec::with_capacity(self.point_count()), Vec::new());
         for strand in self.strands() {
-            let start = along.len();
-            let mut lengths = vec![0.0_f64];
-            for pair in strand.windows(2) {
-                let step = (pair[1].as_dvec3() - pair[0].as_dvec3()).length();
-                lengths.push(lengths[lengths.len() - 1] + step);
-            }
-            let (last, length) = (strand.len() - 1, lengths[strand.len() - 1]);
+            let length = arc_lengths(strand, &mut lengths);
             if length.is_finite() && length > 0.0 {
                 along.extend(lengths.iter().map(|l| (l / length) as f32));
             } else {
-                along.extend((0..strand.len()).map(|i| i as f32 / last.max(1) as f32));
+                let last = (strand.len() - 1).max(1) as f32;
+                along.extend((0..strand.len()).map(|i| i as f32 / last));
             }
-            debug_assert_eq!(along.len(), start + strand.len());
         }
         along
     }

@@ -37,6 +37,16 @@ pub enum GroomError {
         /// The type the name stands for.
         expected: &'static str,
     },
+    /// An operation needs an attribute that is not there, or not in the form it needs.
+    #[error("attribute `{name}` is {found}, expected {expected}")]
+    AttributeMissing {
+        /// The attribute's name.
+        name: &'static str,
+        /// What there is in its place.
+        found: &'static str,
+        /// What is needed, and for what.
+        expected: &'static str,
+    },
     /// An operation was asked for with a value out of its range.
     #[error("{what} is {found}, expected {expected}")]
     Argument {
@@ -47,4 +57,11 @@ pub enum GroomError {
         /// The range it must lie in.
         expected: &'static str,
     },
+}
+
+impl GroomError {
+    /// [`GroomError::Argument`].
+    pub(crate) fn argument(what: &'static str, found: impl ToString, expected: &'static str) -> Self {
+        GroomError::Argument { what, found: found.to_string(), expected }
+    }
 }

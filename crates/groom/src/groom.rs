@@ -158,10 +158,10 @@ impl Groom {
             return Err(GroomError::AttributeLength { name, domain, found, expected });
         }
         let standard_type = match name.as_str() {
-            names::RADIUS | names::TRANSPARENCY => Some("float"),
+            names::RADIUS | names::TRANSPARENCY | names::MELANIN | names::REDNESS => Some("float"),
             names::COLOR | names::VELOCITY => Some("vec3"),
             names::ROOT_UV => Some("vec2"),
-            names::ID | names::GROUP | names::GUIDE => Some("int"),
+            names::ID | names::GROUP | names::GUIDE | names::CLOSEST_GUIDE => Some("int"),
             _ => None,
         };
         let found = attribute.values.type_name();
@@ -175,6 +175,16 @@ impl Groom {
     /// Takes the attribute called `name` out of the groom.
     pub fn remove_attribute(&mut self, name: &str) -> Option<Attribute> {
         self.attributes.remove(name)
+    }
+
+    /// The values of the attributes, to be changed in place; the caller keeps their types and numbers.
+    pub(crate) fn attributes_mut(&mut self) -> impl Iterator<Item = &mut Attribute> + '_ {
+        self.attributes.values_mut()
+    }
+
+    /// The values of one attribute, to be changed in place; the caller keeps their type and number.
+    pub(crate) fn values_mut(&mut self, name: &str) -> Option<&mut Values> {
+        self.attributes.get_mut(name).map(|attribute| &mut attribute.values)
     }
 
     /// Radii of the strands; [`DEFAULT_RADIUS`] where nothing is set.

@@ -18,22 +18,42 @@
 
 mod attribute;
 mod axis;
+mod distance;
 mod dress;
 mod error;
+mod expression;
+mod farthest;
+mod filter;
 mod gather;
+mod grid;
 #[allow(clippy::module_inception)] // the crate's one idea is the type of the same name
 mod groom;
+mod guides;
+mod length;
+mod ramp;
 mod random;
 mod repair;
 mod resample;
+mod reverse;
+mod segment;
+mod simplify;
+mod smooth;
 mod statistics;
 mod subsample;
+mod texture;
 mod transform;
 
 pub use attribute::{Attribute, Domain, FloatView, Values, Vec3View, names};
 pub use axis::UpAxis;
+pub use distance::{Deviation, Distance};
 pub use error::GroomError;
+pub use expression::Expression;
+pub use grid::Grid;
 pub use groom::{DEFAULT_RADIUS, Groom};
+pub use guides::Guides;
+pub use ramp::Ramp;
 pub use random::random;
 pub use repair::Repair;
+pub use smooth::Smoothing;
 pub use statistics::{Range, Statistics};
+pub use texture::{Texture, VAxis};

@@ -1,8 +1,7 @@
 //! Strands with other numbers of points.
 
-use glam::Vec3;
-
 use crate::gather::{Place, gather};
+use crate::length::arc_lengths;
 use crate::{Groom, GroomError};
 
 impl Groom {
@@ -16,7 +15,7 @@ impl Groom {
     /// [`GroomError::Argument`] unless `points` is at least 2 and the result has fewer than 2^32.
     pub fn resample_by_count(&self, points: usize) -> Result<Groom, GroomError> {
         if points < 2 {
-            return Err(argument("points per strand", points, "at least 2"));
+            return Err(GroomError::argument("points per strand", points, "at least 2"));
         }
         self.resample(|_| points as f64 - 1.0)
     }
@@ -30,7 +29,7 @@ impl Groom {
     /// points.
     pub fn resample_by_length(&self, step: f32) -> Result<Groom, GroomError> {
         if !(step.is_finite() && step > 0.0) {
-            return Err(argument("step along the strand", step, "a positive finite number"));
+            return Err(GroomError::argument("step along the strand", step, "a positive finite number"));
         }
         self.resample(|length| (length / f64::from(step)).ceil().max(1.0))
     }
@@ -46,7 +45,7 @@ impl Groom {
             let count = if count.is_nan() { 1.0 } else { count };
             let end = places.len() as f64 + count + 1.0;
             if end > f64::from(u32::MAX) {
-                return Err(argument("points of the resampled groom", end, "fewer than 2^32"));
+                return Err(GroomError::argument("points of the resampled groom", end, "fewer than 2^32"));
             }
             spread(start, &along, count as usize, &mut places);
             offsets.push(places.len() as u32);
@@ -54,18 +53,6 @@ impl Groom {
         let strands: Vec<u32> = (0..self.strand_count() as u32).collect();
         Ok(gather(self, &strands, offsets, &places, false))
     }
-}
-
-/// Fills `along` with the length of the strand up to each point and gives the whole length.
-fn arc_lengths(strand: &[Vec3], along: &mut Vec<f64>) -> f64 {
-    let mut length = 0.0;
-    along.clear();
-    along.push(0.0);
-    for pair in strand.windows(2) {
-        length += (pair[1].as_dvec3() - pair[0].as_dvec3()).length();
-        along.push(length);
-    }
-    length
 }
 
 /// Appends `segments + 1` places evenly spread along the strand that starts at vertex `start`.
@@ -84,8 +71,4 @@ fn spread(start: usize, along: &[f64], segments: usize, places: &mut Vec<Place>)
         places.push(Place { from: (start + from) as u32, t });
     }
     places.push(Place::at(start + last));
-}
-
-fn argument(what: &'static str, found: impl ToString, expected: &'static str) -> GroomError {
-    GroomError::Argument { what, found: found.to_string(), expected }
 }
