@@ -99,6 +99,7 @@ impl Groom {
     /// values out of the name's range, for whole numbers that are not, and for `id`, which no two strands
     /// may share.
     pub fn set(&mut self, name: &str, expression: &Expression, seed: u64) -> Result<(), GroomError> {
+        check_range(name, &expression.kind)?;
         let (name, kind) = match (name, &expression.kind) {
             (names::ID, _) => {
                 return Err(GroomError::argument("id", "one value for all", "one of its own a strand"));
@@ -111,7 +112,6 @@ impl Groom {
             }
             (name, kind) => (name, as_standard(name, kind)?),
         };
-        check_range(name, &kind)?;
         let attribute = match &kind {
             Kind::Int(value) => Attribute { domain: Domain::Groom, values: Values::Int(vec![*value]) },
             Kind::Numbers(numbers) => self.numbers(name, numbers, seed),
@@ -165,17 +165,26 @@ fn standard_float(name: &str) -> bool {
 
 fn check_range(name: &str, kind: &Kind) -> Result<(), GroomError> {
     let (range, what, expected) = match name {
-        names::RADIUS => (0.0..=f32::MAX, "width or radius", "0 or more"),
+        "width" => (0.0..=f32::MAX, "width", "0 or more"),
+        names::RADIUS => (0.0..=f32::MAX, "radius", "0 or more"),
         names::TRANSPARENCY => (0.0..=1.0, "transparency", "0 to 1"),
         names::MELANIN => (0.0..=1.0, "melanin", "0 to 1"),
         names::REDNESS => (0.0..=1.0, "redness", "0 to 1"),
         names::COLOR => (0.0..=1.0, "colour", "channels from 0 to 1"),
         _ => return Ok(()),
     };
-    let Kind::Numbers(numbers) = kind else { return Ok(()) };
-    match numbers.iter().find(|a| !(range.contains(&a.low()) && range.contains(&a.high()))) {
-        Some(a) if a.spread == 0.0 => Err(GroomError::argument(what, a.middle, expected)),
-        Some(a) => Err(GroomError::argument(what, format!("{} to {}", a.low(), a.high()), expected)),
-        None => Ok(()),
+    let outside = |a: &&Around| !(range.contains(&a.low()) && range.contains(&a.high()));
+    match kind {
+        Kind::Int(value) if !range.contains(&(*value as f32)) => {
+            Err(GroomError::argument(what, value, expected))
+        }
+        Kind::Int(_) => Ok(()),
+        Kind::Numbers(numbers) => match numbers.iter().find(outside) {
+            Some(Around { middle, spread: 0.0 }) => Err(GroomError::argument(what, middle, expected)),
+            Some(Around { middle, spread }) => {
+                Err(GroomError::argument(what, format!("{middle}~{spread}"), expected))
+            }
+            None => Ok(()),
+        },
     }
 }

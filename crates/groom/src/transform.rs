@@ -69,8 +69,10 @@ impl Groom {
             return refuse("finite numbers");
         }
         // Programs print 0.99999999 there.
-        if !matrix.row(3).abs_diff_eq(DVec4::W, 1e-6) {
-            return refuse("0 0 0 1 as the last row (of a matrix for row vectors, give the transpose)");
+        let last = matrix.row(3);
+        if !last.abs_diff_eq(DVec4::W, 1e-6) {
+            let expected = "0 0 0 1 (of a matrix for row vectors, give the transpose)";
+            return Err(GroomError::argument("last row of the matrix", last, expected));
         }
         let linear = DMat3::from_mat4(*matrix);
         let (volume, box_volume) = (

@@ -93,7 +93,7 @@ fn what_is_no_value_is_refused() {
         ("color", "0,0,1.1", "0 to 1"),
         ("width", "0.1~0.2", "0 or more"),
         ("width", "int:-1", "0 or more"),
-        ("melanin", "0.95~0.1", "to 1.05, expected 0 to 1"),
+        ("melanin", "0.95~0.1", "melanin is 0.95~0.1, expected 0 to 1"),
         ("group", "1.5", "whole number"),
         ("guide", "1~1", "whole number"),
         ("root_uv", "0.5", "expected vec2"),

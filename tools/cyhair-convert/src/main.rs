@@ -7,6 +7,7 @@ mod edit;
 mod info;
 mod load;
 mod report;
+mod texture;
 
 use std::process::ExitCode;
 

@@ -10,11 +10,17 @@ use std::path::PathBuf;
 use clap::Parser;
 use groom_formats::Format;
 
-use look::Look;
-use strands::Strands;
+pub(crate) use look::Look;
+pub(crate) use strands::Strands;
 pub(crate) use target::is_stream;
 pub(crate) use values::Up;
 use values::{format, unit};
+
+const EXIT_AND_EXAMPLES: &str = "Exit status: 0 done, 2 could not (bad input or usage), 130 stopped by Ctrl-C.\n\n\
+        Examples:\n  \
+        cyhair-convert head.hair head.usda --meters-per-unit 0.00254\n  \
+        cyhair-convert head.hair - --to txt --stride 100 | head\n  \
+        cyhair-convert head.hair --info --json";
 
 /// Converts hair and fur grooms between formats, or says what is in one.
 ///
@@ -25,11 +31,7 @@ use values::{format, unit};
 #[command(
     name = "cyhair-convert",
     version,
-    after_help = "Exit status: 0 done, 2 could not (bad input or usage), 130 stopped by Ctrl-C.\n\n\
-        Examples:\n  \
-        cyhair-convert head.hair head.usda --meters-per-unit 0.00254\n  \
-        cyhair-convert head.hair - --to txt --stride 100 | head\n  \
-        cyhair-convert head.hair --info --json"
+    after_help = format!("{}\n\n{EXIT_AND_EXAMPLES}", crate::edit::ORDER)
 )]
 pub(crate) struct Args {
     /// Groom to read; `-` is standard input (with --from)
