@@ -17,7 +17,7 @@ impl Groom {
         if points < 2 {
             return Err(GroomError::argument("points per strand", points, "at least 2"));
         }
-        self.resample(|_| points as f64 - 1.0)
+        self.resample(|_, _| points as f64 - 1.0)
     }
 
     /// Every strand with points no farther than `step` apart along it, evenly spread.
@@ -31,16 +31,32 @@ impl Groom {
         if !(step.is_finite() && step > 0.0) {
             return Err(GroomError::argument("step along the strand", step, "a positive finite number"));
         }
-        self.resample(|length| (length / f64::from(step)).ceil().max(1.0))
+        self.resample(|_, length| (length / f64::from(step)).ceil().max(1.0))
     }
 
-    /// Every strand with `segments(length)` segments.
-    fn resample(&self, segments: impl Fn(f64) -> f64) -> Result<Groom, GroomError> {
+    /// Every strand with as many points as `like`, the offsets of another groom, gives the strand of that index, evenly spread along its
+    /// length; otherwise as [`Groom::resample_by_count`]. Frames of one groom come out alike by this.
+    ///
+    /// # Errors
+    /// [`GroomError::Argument`] unless both have as many strands, and the others two points or more.
+    pub fn resample_like(&self, like: &[u32]) -> Result<Groom, GroomError> {
+        if like.len() != self.offsets().len() {
+            let found = like.len().saturating_sub(1);
+            return Err(GroomError::argument("strands to be like", found, "as many as the groom has"));
+        }
+        if like.windows(2).any(|ends| ends[1].saturating_sub(ends[0]) < 2) {
+            return Err(GroomError::argument("points per strand", "less", "at least 2"));
+        }
+        self.resample(|strand, _| f64::from(like[strand + 1] - like[strand] - 1))
+    }
+
+    /// Every strand with `segments(index, length)` segments.
+    fn resample(&self, segments: impl Fn(usize, f64) -> f64) -> Result<Groom, GroomError> {
         let (mut offsets, mut places, mut along) = (vec![0], Vec::new(), Vec::new());
         for strand in 0..self.strand_count() {
             let start = self.strand_range(strand).start;
             let length = arc_lengths(self.strand(strand), &mut along);
-            let count = segments(length);
+            let count = segments(strand, length);
             // Not-a-number, from points that are not finite, keeps the strand to its ends.
             let count = if count.is_nan() { 1.0 } else { count };
             let end = places.len() as f64 + count + 1.0;

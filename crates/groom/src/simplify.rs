@@ -24,6 +24,15 @@ impl Groom {
     /// # Errors
     /// [`GroomError::Argument`] unless `tolerance` is finite and not negative.
     pub fn simplify(&self, tolerance: f32) -> Result<Groom, GroomError> {
+        self.keep_points(&self.simple_points(tolerance)?)
+    }
+
+    /// The indices of the points that [`Groom::simplify`] keeps, in order; [`Groom::keep_points`] keeps
+    /// them in other frames of the same groom.
+    ///
+    /// # Errors
+    /// [`GroomError::Argument`] unless `tolerance` is finite and not negative.
+    pub fn simple_points(&self, tolerance: f32) -> Result<Vec<u32>, GroomError> {
         if !(tolerance.is_finite() && tolerance >= 0.0) {
             return Err(GroomError::argument("tolerance", tolerance, "a finite number, 0 or more"));
         }
@@ -31,8 +40,7 @@ impl Groom {
             FloatView::Vertex(radii) => Some(radii),
             _ => None,
         };
-        let (mut offsets, mut places) = (vec![0], Vec::new());
-        let (mut points, mut kept) = (Vec::new(), Vec::new());
+        let (mut points, mut kept, mut all) = (Vec::new(), Vec::new(), Vec::new());
         for index in 0..self.strand_count() {
             let range = self.strand_range(index);
             points.clear();
@@ -49,9 +57,33 @@ impl Groom {
                 kept.clear();
                 kept.extend(0..points.len());
             }
-            places.extend(kept.iter().map(|&point| Place::at(range.start + point)));
-            offsets.push(places.len() as u32);
+            all.extend(kept.iter().map(|&point| (range.start + point) as u32));
         }
+        Ok(all)
+    }
+
+    /// The groom with these of its points only, by their indices in rising order, each with its attributes.
+    ///
+    /// # Errors
+    /// [`GroomError::Argument`] unless the indices rise, belong to the groom and leave every strand a point.
+    pub fn keep_points(&self, points: &[u32]) -> Result<Groom, GroomError> {
+        let (mut offsets, mut next) = (vec![0], 0);
+        for strand in 0..self.strand_count() {
+            let end = self.offsets()[strand + 1];
+            let before = next;
+            while points.get(next).is_some_and(|&point| point < end) {
+                next += 1;
+            }
+            if next == before {
+                return Err(GroomError::argument("points kept of a strand", 0, "1 or more"));
+            }
+            offsets.push(next as u32);
+        }
+        if next != points.len() || points.windows(2).any(|pair| pair[1] <= pair[0]) {
+            let expected = "rising indices of the groom's points";
+            return Err(GroomError::argument("points kept", "another list", expected));
+        }
+        let places: Vec<Place> = points.iter().map(|&point| Place::at(point as usize)).collect();
         let strands: Vec<u32> = (0..self.strand_count() as u32).collect();
         Ok(gather(self, &strands, offsets, &places, false))
     }

@@ -208,7 +208,7 @@ fn points_that_are_not_finite_do_no_harm() {
     assert!(groom.clone().quantize(8).unwrap() > 0.0);
     let _ = Distance::between(&groom, &groom);
     assert_eq!(groom.pick_guides(2, 0).unwrap().strands.len(), 2);
-    assert_eq!(groom.filter_by_length(0.0, 1.0).unwrap().strand_count(), 1);
+    assert_eq!(groom.strands_by_length(0.0, 1.0).unwrap(), [1]);
     groom.clone().reverse();
 }
 
@@ -227,7 +227,7 @@ fn arguments_out_of_range_are_refused() {
         assert!(refused(groom.quantize(bits).unwrap_err()));
     }
     for (min, max) in [(2.0, 1.0), (f32::NAN, 1.0), (0.0, f32::NAN)] {
-        assert!(refused(groom.filter_by_length(min, max).unwrap_err()));
+        assert!(refused(groom.strands_by_length(min, max).unwrap_err()));
     }
     assert_eq!(groom, before);
 }
@@ -236,9 +236,33 @@ fn arguments_out_of_range_are_refused() {
 fn lengths_filter_strands() {
     let strand = |length: f32| vec![Vec3::ZERO, Vec3::X * length * 0.5, Vec3::X * length];
     let groom = from_strands(&[strand(1.0), strand(2.0), strand(3.0), vec![Vec3::ONE]]);
-    let ids = |min, max| ints(&groom.filter_by_length(min, max).unwrap(), "id").to_vec();
-    assert_eq!(ids(2.0, f32::INFINITY), [1, 2]);
-    assert_eq!(ids(0.0, 2.0), [0, 1, 3]);
-    assert_eq!(ids(5.0, 6.0), []);
-    assert_eq!(groom.filter_by_length(0.0, 9.0).unwrap(), groom);
+    let indices = |min, max| groom.strands_by_length(min, max).unwrap();
+    assert_eq!(indices(2.0, f32::INFINITY), [1, 2]);
+    assert_eq!(indices(0.0, 2.0), [0, 1, 3]);
+    assert_eq!(indices(5.0, 6.0), []);
+    let kept = groom.keep_strands(&[2, 0]).unwrap();
+    assert_eq!((ints(&kept, "id"), kept.strand(0)), (&[2, 0][..], groom.strand(2)));
+    assert!(groom.keep_strands(&[4]).is_err());
+}
+
+#[test]
+fn frames_are_reshaped_like_the_first() {
+    let (first, mut second) = (wavy(20, 40), wavy(20, 40));
+    second.smooth(smoothing(30, 1.0, false)).unwrap();
+    let kept = first.simple_points(0.05).unwrap();
+    let (simple, like) = (first.keep_points(&kept).unwrap(), second.keep_points(&kept).unwrap());
+    assert_eq!(simple, first.simplify(0.05).unwrap());
+    assert_eq!(simple.offsets(), like.offsets());
+    let taken = kept.iter().map(|&point| second.positions()[point as usize]);
+    assert!(like.positions().iter().copied().eq(taken));
+    let stepped = first.resample_by_length(0.4).unwrap();
+    let like = second.resample_like(stepped.offsets()).unwrap();
+    assert_eq!(like.offsets(), stepped.offsets());
+    assert_eq!(first.resample_like(stepped.offsets()).unwrap(), stepped);
+    for points in [vec![], vec![0, 1], vec![0; 20], (0..=800).collect(), (0..800).rev().collect()] {
+        assert!(first.keep_points(&points).is_err(), "{points:?}");
+    }
+    for offsets in [vec![], vec![0, 2], (0..=20).collect(), vec![0; 21], (0..21).rev().collect()] {
+        assert!(first.resample_like(&offsets).is_err(), "{offsets:?}");
+    }
 }

@@ -13,7 +13,7 @@ use whole_file::clear_stale;
 
 use crate::args::{Args, is_stream};
 use crate::counted::Counted;
-use crate::edit::{Edited, edit};
+use crate::edit::Edits;
 use crate::load::{Input, load};
 use crate::report;
 
@@ -27,7 +27,8 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         report::say_all("warning", &warnings)?;
     }
     let had_ids = loaded.groom.attribute(names::ID).is_some();
-    let Edited { groom, quantize_error } = edit(loaded.groom, args)?;
+    let mut edits = Edits::new(args);
+    let groom = edits.apply(loaded.groom)?;
     let options =
         WriteOptions { hair: loaded.hair, quantize: args.strands.quantize, ..WriteOptions::default() };
     let (lost, output_bytes) = store(&groom, output, format, &options)?;
@@ -57,7 +58,7 @@ pub(crate) fn run(args: &Args) -> Result<()> {
         "output_bytes": output_bytes,
         "strands": groom.strand_count(),
         "points": groom.point_count(),
-        "quantize_error": quantize_error,
+        "quantize_error": edits.quantize_error,
         "seconds": seconds,
         "warnings": warnings,
         "repairs": loaded.repairs,

@@ -10,7 +10,7 @@ use std::path::PathBuf;
 use clap::Parser;
 use groom_formats::Format;
 
-pub(crate) use look::Look;
+use look::Look;
 pub(crate) use strands::Strands;
 pub(crate) use target::is_stream;
 pub(crate) use values::Up;
