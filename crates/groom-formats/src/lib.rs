@@ -66,6 +66,8 @@ mod check;
 mod counted_strands;
 #[cfg(feature = "ct2hair")]
 mod ct2hair;
+#[cfg(feature = "alembic")]
+mod cubic;
 #[cfg(feature = "data")]
 mod data;
 mod drawable;
@@ -76,6 +78,8 @@ mod frames;
 mod gltf;
 #[cfg(feature = "hair")]
 mod hair;
+#[cfg(feature = "alembic")]
+mod join;
 mod look_alike;
 #[cfg(feature = "monohair")]
 mod monohair;
@@ -91,6 +95,8 @@ mod parse_number;
 mod pbrt;
 #[cfg(feature = "ply")]
 mod ply;
+#[cfg(feature = "alembic")]
+mod polylines;
 mod read;
 #[cfg(feature = "hair")]
 mod stream;

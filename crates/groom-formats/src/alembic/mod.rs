@@ -29,5 +29,5 @@ mod read;
 mod schema;
 mod write;
 
-pub(crate) use read::read;
+pub(crate) use read::{read, read_frames};
 pub(crate) use write::{write, write_animation};

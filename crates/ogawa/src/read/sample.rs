@@ -111,6 +111,9 @@ impl<'a> Sample<'a> {
         if self.data_type.pod != T::POD {
             return Err(self.unlike(format!("{:?}", T::POD)));
         }
+        if cfg!(target_endian = "little") && self.bytes.len().is_multiple_of(size_of::<T>()) {
+            return Ok(bytemuck::pod_collect_to_vec(self.bytes));
+        }
         Ok(self.numbers().collect())
     }
 

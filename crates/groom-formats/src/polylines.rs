@@ -1,0 +1,147 @@
+//! Curves of a file as the polylines a groom is made of: which points make which strand, and where on a curve
+//! the points of a strand lie.
+
+use crate::cubic::{self, Basis, Point};
+
+/// How a curve goes on beyond its ends.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Wrap {
+    Nonperiodic,
+    Periodic,
+    Pinned,
+}
+
+/// How curves go through their points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Shape {
+    /// `None` for lines.
+    pub(crate) basis: Option<Basis>,
+    pub(crate) wrap: Wrap,
+}
+
+impl Shape {
+    /// How many spans a curve of so many points has; `None` if there is no such curve.
+    pub(crate) fn spans(self, points: u32) -> Option<u32> {
+        let enough = |least: u32| points.checked_sub(least);
+        match (self.basis, self.wrap) {
+            (None, Wrap::Periodic) => enough(1).map(|_| points),
+            (None, _) => enough(1),
+            (Some(Basis::Bezier), Wrap::Periodic) => {
+                Some(points / 3).filter(|_| points >= 3 && points.is_multiple_of(3))
+            }
+            (Some(Basis::Bezier), _) => enough(4).filter(|more| more % 3 == 0).map(|more| more / 3 + 1),
+            (Some(_), Wrap::Periodic) => enough(3).map(|_| points),
+            (Some(_), Wrap::Nonperiodic) => enough(4).map(|more| more + 1),
+            (Some(_), Wrap::Pinned) => enough(2).map(|more| more + 1),
+        }
+    }
+
+    /// What [`spans`](Self::spans) asks for, in words.
+    pub(crate) fn expected(self) -> &'static str {
+        match (self.basis, self.wrap) {
+            (None, _) => "1 or more",
+            (Some(Basis::Bezier), Wrap::Periodic) => "3, 6, 9 and so on for periodic bezier curves",
+            (Some(Basis::Bezier), _) => "4, 7, 10 and so on for bezier curves",
+            (Some(_), Wrap::Periodic) => "3 or more for periodic curves",
+            (Some(_), Wrap::Nonperiodic) => "4 or more for curves that are not pinned",
+            (Some(_), Wrap::Pinned) => "2 or more for pinned curves",
+        }
+    }
+
+    /// How many values a curve has that are given at the ends of its spans.
+    fn span_ends(self, points: u32) -> u32 {
+        let spans = self.spans(points).unwrap_or_default();
+        if self.wrap == Wrap::Periodic || points == 0 { spans } else { spans + 1 }
+    }
+}
+
+/// Curves and how they are cut: their control points, and how many parts every span has. Spans of lines are one part.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Polylines {
+    pub(crate) shape: Shape,
+    /// Control points of every curve.
+    pub(crate) counts: Vec<u32>,
+    /// One number a span of a cubic curve, curves one after another.
+    parts: Vec<u16>,
+}
+
+impl Polylines {
+    /// Cuts curves; every count fits the shape and together they are the points.
+    pub(crate) fn cut<P: Point>(shape: Shape, counts: Vec<u32>, points: &[P], error: Option<f32>) -> Self {
+        let mut parts = Vec::new();
+        if let Some(basis) = shape.basis {
+            for curve in each(points, &counts) {
+                cubic::cut(curve, basis, shape, error, &mut parts);
+            }
+        }
+        Polylines { shape, counts, parts }
+    }
+
+    /// Points of every strand; curves without a point are no strands.
+    pub(crate) fn strand_lens(&self) -> impl Iterator<Item = u32> + '_ {
+        let mut parts = self.parts.iter();
+        self.counts.iter().filter(|&&count| count > 0).map(move |&count| {
+            let spans = self.shape.spans(count).unwrap_or_default();
+            match self.shape.basis {
+                Some(_) => parts.by_ref().take(spans as usize).map(|&part| u32::from(part)).sum::<u32>() + 1,
+                None => spans + 1,
+            }
+        })
+    }
+
+    /// Values given one a control point, at the points of the strands.
+    pub(crate) fn per_point<P: Point>(&self, values: Vec<P>) -> Vec<P> {
+        let Some(basis) = self.shape.basis else { return self.closed(values) };
+        let mut out = Vec::new();
+        for (curve, parts) in each(&values, &self.counts).zip(self.parts()) {
+            cubic::sample(curve, basis, self.shape.wrap, parts, &mut out);
+        }
+        out
+    }
+
+    /// Values given one an end of a span, at the points of the strands; `None` if there are not as many.
+    pub(crate) fn per_span_end<P: Point>(&self, values: Vec<P>) -> Option<Vec<P>> {
+        let counts: Vec<u32> = self.counts.iter().map(|&count| self.shape.span_ends(count)).collect();
+        if counts.iter().map(|&count| u64::from(count)).sum::<u64>() != values.len() as u64 {
+            return None;
+        }
+        if self.shape.basis.is_none() {
+            return Some(self.closed(values));
+        }
+        let mut out = Vec::new();
+        for (curve, parts) in each(&values, &counts).zip(self.parts()) {
+            cubic::sample_varying(curve, self.shape.wrap, parts, &mut out);
+        }
+        Some(out)
+    }
+
+    /// Of periodic lines, every one with its first value again at its end.
+    fn closed<P: Copy>(&self, values: Vec<P>) -> Vec<P> {
+        if self.shape.wrap != Wrap::Periodic {
+            return values;
+        }
+        let curves = each(&values, &self.counts);
+        curves.flat_map(|curve| curve.iter().chain(curve.first()).copied()).collect()
+    }
+
+    /// The parts of the spans of every curve.
+    fn parts(&self) -> impl Iterator<Item = &[u16]> {
+        let mut rest = &self.parts[..];
+        self.counts.iter().map(move |&count| {
+            let spans = self.shape.spans(count).unwrap_or_default() as usize;
+            let (parts, after) = rest.split_at_checked(spans).unwrap_or_default();
+            rest = after;
+            parts
+        })
+    }
+}
+
+/// The values of every curve.
+fn each<'v, P>(values: &'v [P], counts: &'v [u32]) -> impl Iterator<Item = &'v [P]> {
+    let mut rest = values;
+    counts.iter().map(move |&count| {
+        let (curve, after) = rest.split_at_checked(count as usize).unwrap_or_default();
+        rest = after;
+        curve
+    })
+}
