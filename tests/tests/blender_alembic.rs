@@ -11,7 +11,7 @@ use std::process::Command;
 use end_to_end_tests::{say_skipped, workspace};
 use glam::Vec3;
 use groom::{Attribute, Domain, Groom, Values, names};
-use groom_formats::{Dialect, Frame, WriteOptions, write, write_animation};
+use groom_formats::{Dialect, Frame, ReadOptions, WriteOptions, read_frames, write, write_animation};
 use serde_json::{Value, json};
 
 fn blender() -> Option<PathBuf> {
@@ -97,4 +97,59 @@ fn blender_plays_ten_frames() {
     let mut given = frames.clone().into_iter().map(Ok);
     write_animation(&groom, &mut given, 24.0, &abc, &WriteOptions::default()).unwrap();
     script(&python, "check", &abc, &numbers(&groom, &frames));
+}
+
+/// Where Blender's z-up point is in its Alembic, which is y up.
+fn y_up(p: Vec3) -> Vec3 {
+    Vec3::new(p.x, p.z, -p.y)
+}
+
+fn assert_near(read: &[Vec3], expected: &[Vec3]) {
+    assert_eq!(read.len(), expected.len());
+    for (a, b) in read.iter().zip(expected) {
+        assert!((*a - *b).length() <= 1e-5, "{a} {b}");
+    }
+}
+
+#[test]
+fn we_read_what_blender_writes() {
+    let Some(python) = blender() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let groom = groom(Some((Domain::Vertex, (1..9).map(|i| i as f32 * 0.25).collect())));
+    let mut wanted = numbers(&groom, &still(&groom));
+    wanted["location"] = json!([1, 2, 3]);
+    let abc = folder.path().join("still.abc");
+    script(&python, "export", &abc, &wanted);
+    let loaded = groom_formats::read(&abc, &ReadOptions::default()).unwrap();
+    let expected: Vec<Vec3> = groom.positions().iter().map(|&p| y_up(p + Vec3::new(1.0, 2.0, 3.0))).collect();
+    assert_near(loaded.groom.positions(), &expected);
+    assert_eq!((loaded.groom.offsets(), loaded.times.len()), (groom.offsets(), 0));
+    assert_eq!(loaded.groom.attribute(names::RADIUS), groom.attribute(names::RADIUS));
+
+    // Carried by a transform that moves.
+    wanted["move"] = json!([[1, [0, 0, 0]], [3, [2, 0, 0]]]);
+    wanted["range"] = json!([1, 3]);
+    let abc = folder.path().join("moving.abc");
+    script(&python, "export", &abc, &wanted);
+    let (loaded, frames) = read_frames(&abc, &ReadOptions::default()).unwrap();
+    assert_eq!((&loaded.times[..], loaded.frame_rate), (&[1.0, 2.0, 3.0][..], Some(24.0)));
+    let frames: Vec<Frame> = frames.map(Result::unwrap).collect();
+    assert_eq!(frames.len(), 3);
+    for (frame, x) in frames.iter().zip([0.0, 1.0, 2.0]) {
+        let expected: Vec<Vec3> = groom.positions().iter().map(|&p| y_up(p + Vec3::X * x)).collect();
+        assert_near(&frame.positions, &expected);
+    }
+
+    // Catmull-Rom curves go through their points.
+    let mut round = numbers(&groom, &still(&groom));
+    round["type"] = json!("catmull_rom");
+    round["counts"] = json!([4, 4]);
+    let abc = folder.path().join("round.abc");
+    script(&python, "export", &abc, &round);
+    let read = groom_formats::read(&abc, &ReadOptions::default()).unwrap().groom;
+    assert_eq!(read.strand_count(), 2);
+    assert!(read.point_count() > 16);
+    for &point in groom.positions() {
+        assert!(read.positions().iter().any(|p| p.distance(y_up(point)) < 1e-5), "{point}");
+    }
 }

@@ -34,6 +34,8 @@ pub(super) const METERS_PER_UNIT: &str = "groomkit_meters_per_unit";
 pub(super) const DOMAINS: &str = "groomkit_domains";
 /// Frames a second, in the archive's metadata (`kDCCFPSKey`).
 pub(super) const FRAME_RATE: &str = "_ai_DCC_FPS";
+/// The same, and what Blender calls it.
+pub(super) const FRAME_RATES: [&str; 2] = [FRAME_RATE, "FramesPerTimeUnit"];
 
 /// Standard attributes and their names among the arbitrary parameters. Transparency keeps its own: Unreal
 /// has none.

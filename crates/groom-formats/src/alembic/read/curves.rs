@@ -115,7 +115,7 @@ pub(super) fn required<'a>(
 ///
 /// Alembic says no more than a basis, and its programs do not agree on ends. Catmull-Rom curves go through
 /// all of their points, as in Blender. B-splines end before the outer ones, as in RenderMan, unless they
-/// bring knots: those are clamped, and the curve reaches its ends.
+/// bring knots that are clamped: then the curve reaches its ends.
 fn shape(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<Shape, OgawaError> {
     let property = required(geometry, schema::KIND)?;
     let &[kind, wrap, basis, ..] = samples.held(&property)?.bytes() else {
@@ -151,6 +151,17 @@ fn shape(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<Shape, Ogaw
         _ => Wrap::Nonperiodic,
     };
     Ok(Shape { basis, wrap })
+}
+
+/// Whether the first curve's knots begin with the same number several times; all curves are taken to be alike.
+fn has_clamped_knots(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<bool, OgawaError> {
+    let Some(knots) = geometry.find(KNOTS)?.filter(|knots| knots.sample_count() > 0) else {
+        return Ok(false);
+    };
+    // The second to the third knot: some writers leave out the outermost.
+    let sample = samples.held(&knots)?;
+    samples.spend(4 * sample.len(), KNOTS)?;
+    Ok(matches!(sample.to_f32()?[..], [_, second, third, ..] if second == third))
 }
 
 /// The one order of all curves, 2 or 4; without orders they are lines, as Blender has it.

@@ -30,7 +30,7 @@ impl Clock {
     /// The archive's frame rate, or that of the first of its times that are a step.
     pub(super) fn new(archive: &Archive<'_>) -> Result<Self, OgawaError> {
         let good = |rate: &f64| rate.is_finite() && *rate > 0.0;
-        let said = archive.metadata().get(schema::FRAME_RATE).and_then(|text| text.parse().ok());
+        let said = schema::FRAME_RATES.iter().find_map(|key| archive.metadata().get(key)?.parse().ok());
         if let Some(frame_rate) = said.filter(good) {
             return Ok(Clock { frame_rate });
         }
