@@ -26,10 +26,15 @@ pub fn read_frames(path: &Path, options: &ReadOptions) -> Result<(Loaded, Frames
             let (loaded, frames) = crate::usd::read::read_frames(bytes, format, &name, options)?;
             Ok((loaded, Box::new(frames)))
         }
+        #[cfg(feature = "alembic")]
+        Format::Alembic => {
+            let (loaded, frames) = crate::alembic::read_frames(bytes, &name, options)?;
+            Ok((loaded, Box::new(frames)))
+        }
         _ => Err(unknown()),
     }
 }
 
 fn holds_motion(format: Format) -> bool {
-    format.can_read() && matches!(format, Format::Usda | Format::Usdc | Format::Usdz)
+    format.can_read() && matches!(format, Format::Usda | Format::Usdc | Format::Usdz | Format::Alembic)
 }

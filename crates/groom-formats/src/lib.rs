@@ -66,7 +66,7 @@ mod check;
 mod counted_strands;
 #[cfg(feature = "ct2hair")]
 mod ct2hair;
-#[cfg(feature = "alembic")]
+#[cfg(any(feature = "alembic", feature = "usda", feature = "usdc", feature = "usdz"))]
 mod cubic;
 #[cfg(feature = "data")]
 mod data;
@@ -78,7 +78,7 @@ mod frames;
 mod gltf;
 #[cfg(feature = "hair")]
 mod hair;
-#[cfg(feature = "alembic")]
+#[cfg(any(feature = "alembic", feature = "usda", feature = "usdc", feature = "usdz"))]
 mod join;
 mod look_alike;
 #[cfg(feature = "monohair")]
@@ -95,7 +95,7 @@ mod parse_number;
 mod pbrt;
 #[cfg(feature = "ply")]
 mod ply;
-#[cfg(feature = "alembic")]
+#[cfg(any(feature = "alembic", feature = "usda", feature = "usdc", feature = "usdz"))]
 mod polylines;
 mod read;
 #[cfg(feature = "hair")]

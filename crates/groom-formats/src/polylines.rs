@@ -26,10 +26,9 @@ impl Shape {
         match (self.basis, self.wrap) {
             (None, Wrap::Periodic) => enough(1).map(|_| points),
             (None, _) => enough(1),
-            (Some(Basis::Bezier), Wrap::Periodic) => {
-                Some(points / 3).filter(|_| points >= 3 && points.is_multiple_of(3))
-            }
-            (Some(Basis::Bezier), _) => enough(4).filter(|more| more % 3 == 0).map(|more| more / 3 + 1),
+            // Points behind the last whole span belong to none, as renderers have it.
+            (Some(Basis::Bezier), Wrap::Periodic) => enough(3).map(|more| more / 3 + 1),
+            (Some(Basis::Bezier), _) => enough(4).map(|more| more / 3 + 1),
             (Some(_), Wrap::Periodic) => enough(3).map(|_| points),
             (Some(_), Wrap::Nonperiodic) => enough(4).map(|more| more + 1),
             (Some(_), Wrap::Pinned) => enough(2).map(|more| more + 1),
@@ -37,15 +36,34 @@ impl Shape {
     }
 
     /// What [`spans`](Self::spans) asks for, in words.
-    pub(crate) fn expected(self) -> &'static str {
+    fn expected(self) -> &'static str {
         match (self.basis, self.wrap) {
             (None, _) => "1 or more",
-            (Some(Basis::Bezier), Wrap::Periodic) => "3, 6, 9 and so on for periodic bezier curves",
-            (Some(Basis::Bezier), _) => "4, 7, 10 and so on for bezier curves",
+            (Some(Basis::Bezier), Wrap::Periodic) => "3 or more for periodic bezier curves",
+            (Some(Basis::Bezier), _) => "4 or more for bezier curves",
             (Some(_), Wrap::Periodic) => "3 or more for periodic curves",
             (Some(_), Wrap::Nonperiodic) => "4 or more for curves that are not pinned",
             (Some(_), Wrap::Pinned) => "2 or more for pinned curves",
         }
+    }
+
+    /// The numbers of points, checked: none is too short, and they add up; else what was found and expected.
+    pub(crate) fn check(self, counts: &[i32], points: usize) -> Result<Vec<u32>, (String, String)> {
+        let mut sum = 0_u64;
+        let mut checked = Vec::with_capacity(counts.len());
+        for (curve, &count) in counts.iter().enumerate() {
+            let found = || format!("{count} points of curve {curve}");
+            let count = u32::try_from(count).map_err(|_| (found(), "0 or more".to_owned()))?;
+            if count > 0 && self.spans(count).is_none() {
+                return Err((found(), self.expected().to_owned()));
+            }
+            sum += u64::from(count);
+            checked.push(count);
+        }
+        if sum == points as u64 {
+            return Ok(checked);
+        }
+        Err((format!("counts that add up to {sum}"), format!("{points}, the points there are")))
     }
 
     /// How many values a curve has that are given at the ends of its spans.
@@ -55,7 +73,8 @@ impl Shape {
     }
 }
 
-/// Curves and how they are cut: their control points, and how many parts every span has. Spans of lines are one part.
+/// Curves and how they are cut: their control points, and how many parts every span has. Spans of lines are one
+/// part.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Polylines {
     pub(crate) shape: Shape,
@@ -87,6 +106,11 @@ impl Polylines {
                 None => spans + 1,
             }
         })
+    }
+
+    /// Whether the strands' points are the control points.
+    pub(crate) fn are_plain(&self) -> bool {
+        self.shape.basis.is_none() && self.shape.wrap != Wrap::Periodic
     }
 
     /// Values given one a control point, at the points of the strands.

@@ -278,7 +278,7 @@ fn wraps_knots_and_orders() {
     let three = archive(|file, top| {
         top.children.push(curves(file, "hair", &BENT[..3], &[3], [0, 0, 1], vec![]));
     });
-    refused(&three, "found 3 points of curve 0, expected 4, 7, 10 and so on for bezier curves");
+    refused(&three, "found 3 points of curve 0, expected 4 or more for bezier curves");
 }
 
 #[test]

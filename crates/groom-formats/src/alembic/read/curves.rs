@@ -56,7 +56,9 @@ impl<'a> Curves<'a> {
         like: Option<&Polylines>,
     ) -> Result<Self, OgawaError> {
         let shape = shape(&geometry, samples)?;
-        let counts = checked(&counts, points.len(), shape)?;
+        let counts = shape.check(&counts, points.len()).map_err(|(found, expected)| {
+            OgawaError::Property { name: schema::COUNTS.into(), found, expected }
+        })?;
         let polylines = match like {
             Some(like) if like.counts == counts && like.shape == shape => like.clone(),
             Some(like) => {
@@ -143,8 +145,11 @@ fn shape(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<Shape, Ogaw
             return Err(wrong(&property, found, "linear, bezier, b-spline or Catmull-Rom curves"));
         }
     };
-    let pinned =
-        basis == Some(Basis::CatmullRom) || basis == Some(Basis::Bspline) && geometry.find(KNOTS)?.is_some();
+    let pinned = match basis {
+        Some(Basis::CatmullRom) => true,
+        Some(Basis::Bspline) => has_clamped_knots(geometry, samples)?,
+        _ => false,
+    };
     let wrap = match wrap {
         1 => Wrap::Periodic,
         _ if pinned => Wrap::Pinned,
@@ -175,30 +180,6 @@ fn order(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<u8, OgawaEr
         return Ok(first);
     }
     Err(wrong(&property, "curves of several or other orders".into(), "all 2 (lines) or all 4 (cubic)"))
-}
-
-/// The numbers of points, checked: none is too short, and they add up.
-fn checked(counts: &[i32], points: usize, shape: Shape) -> Result<Vec<u32>, OgawaError> {
-    let fault = |found: String, expected: String| OgawaError::Property {
-        name: schema::COUNTS.into(),
-        found,
-        expected,
-    };
-    let mut sum = 0_u64;
-    let mut checked = Vec::with_capacity(counts.len());
-    for (curve, &count) in counts.iter().enumerate() {
-        let found = || format!("{count} points of curve {curve}");
-        let count = u32::try_from(count).map_err(|_| fault(found(), "0 or more".into()))?;
-        if count > 0 && shape.spans(count).is_none() {
-            return Err(fault(found(), shape.expected().into()));
-        }
-        sum += u64::from(count);
-        checked.push(count);
-    }
-    if sum == points as u64 {
-        return Ok(checked);
-    }
-    Err(fault(format!("counts that add up to {sum}"), format!("{points}, the points there are")))
 }
 
 fn wrong(property: &PropertyReader<'_>, found: String, expected: &str) -> OgawaError {

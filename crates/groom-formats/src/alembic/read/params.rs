@@ -183,7 +183,8 @@ impl Reader<'_, '_> {
         let points = |domain: Option<Domain>, values| {
             domain.map(|domain| Attribute { domain, values }).ok_or_else(|| {
                 let points = curves.control_points;
-                format!("{count} values fit neither {strands} curves nor {points} points")
+                let cubic = if polylines.are_plain() { "" } else { " that take no whole numbers" };
+                format!("{count} values fit neither {strands} curves nor {points} points{cubic}")
             })
         };
         match domain {
@@ -194,7 +195,9 @@ impl Reader<'_, '_> {
                     Values::Float(values) => self.over(values, per_point).map(Values::Float),
                     Values::Vec2(values) => self.over(values, per_point).map(Values::Vec2),
                     Values::Vec3(values) => self.over(values, per_point).map(Values::Vec3),
-                    Values::Int(values) => self.whole(values, per_point).map(Values::Int),
+                    // Whole numbers are not mixed on a cubic curve.
+                    Values::Int(values) if polylines.are_plain() && per_point => Some(Values::Int(values)),
+                    Values::Int(_) => None,
                 };
                 match values {
                     Some(values) => points(Some(Domain::Vertex), values),
@@ -208,15 +211,6 @@ impl Reader<'_, '_> {
     fn over<P: Point>(&self, values: Vec<P>, per_point: bool) -> Option<Vec<P>> {
         let polylines = &self.curves.polylines;
         if per_point { Some(polylines.per_point(values)) } else { polylines.per_span_end(values) }
-    }
-
-    /// Whole numbers between control points are the nearest that lies between.
-    fn whole(&self, values: Vec<i32>, per_point: bool) -> Option<Vec<i32>> {
-        if self.curves.polylines.shape.basis.is_none() && self.curves.positions.len() == values.len() {
-            return Some(values);
-        }
-        let fractions = values.into_iter().map(|value| value as f32).collect();
-        Some(self.over::<f32>(fractions, per_point)?.into_iter().map(|value| value.round() as i32).collect())
     }
 
     /// Without the values of curves that have no points and are no strands.

@@ -4,7 +4,6 @@ use glam::{DMat4, Vec3};
 use groom::{Attribute, Domain, Values, names};
 
 use super::curves::Curves;
-use super::topology::Wrap;
 use super::values::{self, Fault};
 use crate::{FormatError, Warning};
 
@@ -150,7 +149,7 @@ fn look_up(values: &Values, indices: &[i32]) -> Result<Values, i32> {
 
 /// Brings values to where the groom has them; `None` if they are too few or too many.
 fn place<B: AsRef<[u8]>>(curves: &Curves<'_, B>, values: Values, interpolation: &str) -> Option<Attribute> {
-    let counts = &curves.sampling.counts;
+    let counts = &curves.polylines.counts;
     match interpolation {
         "constant" => (values.len() == 1).then_some(Attribute { domain: Domain::Groom, values }),
         "uniform" => {
@@ -160,12 +159,12 @@ fn place<B: AsRef<[u8]>>(curves: &Curves<'_, B>, values: Values, interpolation: 
         "vertex" => {
             let values = (values.len() == curves.control_points).then_some(values)?;
             let values = match values {
-                Values::Float(values) => Values::Float(curves.per_point(values)),
-                Values::Vec2(values) => Values::Vec2(curves.per_point(values)),
-                Values::Vec3(values) => Values::Vec3(curves.per_point(values)),
+                Values::Float(values) => Values::Float(curves.polylines.per_point(values)),
+                Values::Vec2(values) => Values::Vec2(curves.polylines.per_point(values)),
+                Values::Vec3(values) => Values::Vec3(curves.polylines.per_point(values)),
                 Values::Int(values) => {
                     // Whole numbers are not mixed on a cubic curve.
-                    let plain = curves.shape.basis.is_none() && curves.shape.wrap != Wrap::Periodic;
+                    let plain = curves.polylines.are_plain();
                     plain.then_some(Values::Int(values))?
                 }
             };
@@ -173,9 +172,9 @@ fn place<B: AsRef<[u8]>>(curves: &Curves<'_, B>, values: Values, interpolation: 
         }
         "varying" | "faceVarying" => {
             let values = match values {
-                Values::Float(values) => Values::Float(curves.per_span_end(values)?),
-                Values::Vec2(values) => Values::Vec2(curves.per_span_end(values)?),
-                Values::Vec3(values) => Values::Vec3(curves.per_span_end(values)?),
+                Values::Float(values) => Values::Float(curves.polylines.per_span_end(values)?),
+                Values::Vec2(values) => Values::Vec2(curves.polylines.per_span_end(values)?),
+                Values::Vec3(values) => Values::Vec3(curves.polylines.per_span_end(values)?),
                 Values::Int(_) => return None,
             };
             Some(Attribute { domain: Domain::Vertex, values })

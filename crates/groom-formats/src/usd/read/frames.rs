@@ -4,8 +4,8 @@ use glam::Vec3;
 
 use super::curves::Curves;
 use super::stage::Stage;
-use super::topology::Sampling;
 use super::{attribute, load, open};
+use crate::polylines::Polylines;
 use crate::{Format, FormatError, Frame, Loaded, ReadOptions};
 
 /// The groom at its first time, and its frames.
@@ -17,12 +17,12 @@ pub(crate) fn read(
 ) -> Result<(Loaded, Frames), FormatError> {
     let stage = open(bytes, format, name, options)?;
     let first = stage.times.first().copied();
-    let (loaded, sampling) = load(&stage, options.time.or(first), options)?;
+    let (loaded, cuts) = load(&stage, options.time.or(first), options)?;
     let Stage { layer, context, curves, times, composed } = stage;
     let file = name.to_owned();
     let parts =
         Parts { layer, curves, times, composed, format: context.format, curve_error: context.curve_error };
-    Ok((loaded, Frames { file, stage: Some(parts), sampling, next: 0 }))
+    Ok((loaded, Frames { file, stage: Some(parts), cuts, next: 0 }))
 }
 
 /// A stage without the name of its file.
@@ -39,7 +39,7 @@ struct Parts {
 pub(crate) struct Frames {
     file: String,
     stage: Option<Parts>,
-    sampling: Vec<Sampling>,
+    cuts: Vec<Polylines>,
     next: usize,
 }
 
@@ -53,7 +53,7 @@ impl Iterator for Frames {
         let Parts { layer, curves, times, composed, format, curve_error } = parts;
         let context = super::Context { file: &self.file, format, curve_error };
         let stage = Stage { layer, context, curves, times, composed };
-        let frame = frame(&stage, time, &self.sampling);
+        let frame = frame(&stage, time, &self.cuts);
         let Stage { layer, curves, times, composed, .. } = stage;
         // After an error there is no other frame.
         self.stage = frame.is_ok().then_some(Parts { layer, curves, times, composed, format, curve_error });
@@ -61,12 +61,12 @@ impl Iterator for Frames {
     }
 }
 
-fn frame(stage: &Stage<'_, Vec<u8>>, time: f64, sampling: &[Sampling]) -> Result<Frame, FormatError> {
+fn frame(stage: &Stage<'_, Vec<u8>>, time: f64, cuts: &[Polylines]) -> Result<Frame, FormatError> {
     let mut frame = Frame { time, ..Frame::default() };
     let mut velocities: Option<Vec<Vec3>> = None;
     let mut all = true;
-    for (place, sampling) in stage.curves.iter().zip(sampling) {
-        let (curves, points) = Curves::read(stage, place, Some(time), Some(sampling))?;
+    for (place, cut) in stage.curves.iter().zip(cuts) {
+        let (curves, points) = Curves::read(stage, place, Some(time), Some(cut))?;
         match attribute::velocities(&curves)? {
             Some(more) => velocities.get_or_insert_default().extend(more),
             None => all = false,

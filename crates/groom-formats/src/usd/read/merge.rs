@@ -1,134 +1,44 @@
 //! Prims of curves as one groom.
 
-use std::collections::BTreeMap;
-
-use glam::{Vec2, Vec3};
-use groom::{Attribute, Domain, Groom, Values, names};
+use glam::Vec3;
+use groom::{Attribute, Groom, names};
 
 use super::attribute;
 use super::curves::Curves;
 use super::stage::Stage;
-use super::topology::Sampling;
+use crate::join::{self, Part};
+use crate::polylines::Polylines;
 use crate::{FormatError, Warning};
-
-/// A prim's share of the groom.
-struct Part {
-    strand_lens: Vec<u32>,
-    points: usize,
-    attributes: BTreeMap<String, Attribute>,
-}
 
 pub(super) fn merge<B: AsRef<[u8]>>(
     stage: &Stage<'_, B>,
     time: Option<f64>,
     warnings: &mut Vec<Warning>,
-) -> Result<(Groom, Vec<Sampling>), FormatError> {
+) -> Result<(Groom, Vec<Polylines>), FormatError> {
     let file = stage.context.file;
-    let (mut parts, mut sampling) = (Vec::new(), Vec::new());
+    let (mut parts, mut cuts) = (Vec::new(), Vec::new());
     let mut positions: Vec<Vec3> = Vec::new();
     for place in &stage.curves {
         let (curves, points) = Curves::read(stage, place, time, None)?;
         let attributes = attribute::all(&curves, warnings)?.into_iter().collect();
-        parts.push(Part { strand_lens: curves.strand_lens().collect(), points: points.len(), attributes });
+        parts.push(Part {
+            strand_lens: curves.polylines.strand_lens().collect(),
+            points: points.len(),
+            attributes,
+        });
         // The first prim, often the only one, gives its points away.
         if positions.is_empty() {
             positions = points
         } else {
             positions.extend(points)
         }
-        sampling.push(curves.sampling);
+        cuts.push(curves.polylines);
     }
-    let mut offsets = vec![0_u32];
-    let mut end = 0_u32;
-    for len in parts.iter().flat_map(|part| &part.strand_lens) {
-        end = end.checked_add(*len).ok_or_else(|| FormatError::TooLarge {
-            file: file.to_owned(),
-            format: stage.context.format,
-            what: "points",
-            found: positions.len() as u64,
-            limit: u32::MAX.into(),
-        })?;
-        offsets.push(end);
-    }
-    let mut groom = Groom::new(offsets, positions).map_err(|error| FormatError::groom(file, error))?;
-    if parts.len() > 1 && parts.iter().all(|part| !part.attributes.contains_key(names::GROUP)) {
-        for (index, part) in parts.iter_mut().enumerate() {
-            let group = Attribute { domain: Domain::Groom, values: Values::Int(vec![index as i32]) };
-            part.attributes.insert(names::GROUP.into(), group);
-        }
-    }
-    let mut all: Vec<String> = parts.iter().flat_map(|part| part.attributes.keys().cloned()).collect();
-    all.sort();
-    all.dedup();
-    for name in all {
-        let fault = match joined(&mut parts, &name) {
-            Some(attribute) => groom.set_attribute(&*name, attribute).err().map(|error| error.to_string()),
-            None => Some("its type differs from prim to prim".into()),
-        };
-        if let Some(why) = fault {
-            warnings.push(Warning::AttributeNotRead { name, why });
-        }
-    }
+    let mut groom = join::groom(parts, positions, stage.context.format, file, warnings)?;
     if groom.attribute(names::RADIUS).is_none() {
         warnings.push(Warning::NoRadius { radius: groom::DEFAULT_RADIUS });
         let radius = Attribute::constant_float(groom::DEFAULT_RADIUS);
         groom.set_attribute(names::RADIUS, radius).map_err(|error| FormatError::groom(file, error))?;
     }
-    Ok((groom, sampling))
-}
-
-/// The attribute of all prims, in the narrowest domain that serves them; prims without it have nothing (the usual
-/// radius, white). `None` if their types differ.
-fn joined(parts: &mut [Part], name: &str) -> Option<Attribute> {
-    if let [part] = parts {
-        return part.attributes.remove(name);
-    }
-    let taken: Vec<Option<Attribute>> = parts.iter_mut().map(|part| part.attributes.remove(name)).collect();
-    let first = taken.iter().flatten().next()?;
-    let same = taken.iter().all(|attribute| attribute.as_ref() == Some(first));
-    let constant = |attribute: &Attribute| attribute.domain == Domain::Groom;
-    if same && constant(first) {
-        return Some(first.clone());
-    }
-    let vertex = taken.iter().flatten().any(|attribute| attribute.domain == Domain::Vertex);
-    let domain = if vertex { Domain::Vertex } else { Domain::Strand };
-    let mut values = match first.values {
-        Values::Float(_) => Values::Float(Vec::new()),
-        Values::Vec2(_) => Values::Vec2(Vec::new()),
-        Values::Vec3(_) => Values::Vec3(Vec::new()),
-        Values::Int(_) => Values::Int(Vec::new()),
-    };
-    for (part, attribute) in parts.iter().zip(&taken) {
-        let missing = match (name, &values) {
-            (names::RADIUS, _) => Values::Float(vec![groom::DEFAULT_RADIUS]),
-            (names::COLOR, _) => Values::Vec3(vec![Vec3::ONE]),
-            (_, Values::Float(_)) => Values::Float(vec![0.0]),
-            (_, Values::Vec2(_)) => Values::Vec2(vec![Vec2::ZERO]),
-            (_, Values::Vec3(_)) => Values::Vec3(vec![Vec3::ZERO]),
-            (_, Values::Int(_)) => Values::Int(vec![0]),
-        };
-        let missing = Attribute { domain: Domain::Groom, values: missing };
-        let attribute = attribute.as_ref().unwrap_or(&missing);
-        match (&mut values, &attribute.values) {
-            (Values::Float(to), Values::Float(from)) => extend(to, from, attribute.domain, domain, part),
-            (Values::Vec2(to), Values::Vec2(from)) => extend(to, from, attribute.domain, domain, part),
-            (Values::Vec3(to), Values::Vec3(from)) => extend(to, from, attribute.domain, domain, part),
-            (Values::Int(to), Values::Int(from)) => extend(to, from, attribute.domain, domain, part),
-            _ => return None,
-        }
-    }
-    Some(Attribute { domain, values })
-}
-
-/// Adds a prim's values, repeated where the domain is wider than theirs.
-fn extend<T: Copy>(to: &mut Vec<T>, from: &[T], domain: Domain, wanted: Domain, part: &Part) {
-    match (domain, wanted) {
-        (Domain::Groom, Domain::Vertex) => to.extend(from.iter().cycle().take(part.points)),
-        (Domain::Groom, _) => to.extend(from.iter().cycle().take(part.strand_lens.len())),
-        (Domain::Strand, Domain::Vertex) => {
-            let strands = from.iter().zip(&part.strand_lens);
-            to.extend(strands.flat_map(|(value, &len)| std::iter::repeat_n(*value, len as usize)));
-        }
-        _ => to.extend_from_slice(from),
-    }
+    Ok((groom, cuts))
 }

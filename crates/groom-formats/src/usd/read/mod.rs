@@ -6,7 +6,7 @@
 //!
 //! | USD | groom |
 //! |---|---|
-//! | `points`, `curveVertexCounts` | points and strands; cubic curves become polylines ([`cubic`]) |
+//! | `points`, `curveVertexCounts` | points and strands; cubic curves become polylines ([`cubic`](crate::cubic)) |
 //! | `primvars:widths`, else `widths` | `radius`, half of it, times the mean scale of the prim's transform |
 //! | `primvars:displayColor`, `primvars:displayOpacity` | `color`, `transparency` = 1 - opacity |
 //! | `primvars:st`, `velocities` | `root_uv`, `velocity` (turned with the prim) |
@@ -19,18 +19,17 @@
 //! layers has to be flattened first.
 
 mod attribute;
-mod cubic;
 mod curves;
 mod frames;
 mod merge;
 mod stage;
-mod topology;
 mod values;
 mod xform;
 
 use groom::UpAxis;
 use usd_layer::{Layer, ReadError};
 
+use crate::polylines::Polylines;
 use crate::{Format, FormatError, Loaded, ReadOptions, Warning};
 
 pub(crate) use frames::read as read_frames;
@@ -78,12 +77,12 @@ fn load<B: AsRef<[u8]>>(
     stage: &stage::Stage<'_, B>,
     time: Option<f64>,
     options: &ReadOptions,
-) -> Result<(Loaded, Vec<topology::Sampling>), FormatError> {
+) -> Result<(Loaded, Vec<Polylines>), FormatError> {
     let mut warnings = Vec::new();
     if stage.composed > 0 {
         warnings.push(Warning::CompositionNotFollowed { prims: stage.composed });
     }
-    let (mut groom, sampling) = merge::merge(stage, time, &mut warnings)?;
+    let (mut groom, cuts) = merge::merge(stage, time, &mut warnings)?;
     let layer = &stage.layer;
     let up = match layer.metadata("upAxis").and_then(usd_layer::Value::text) {
         Some("Z") => UpAxis::Z,
@@ -103,5 +102,5 @@ fn load<B: AsRef<[u8]>>(
         loaded.frame_rate = Some(rate.unwrap_or(TIME_CODES_PER_SECOND));
         loaded.times.clone_from(&stage.times);
     }
-    Ok((loaded, sampling))
+    Ok((loaded, cuts))
 }
