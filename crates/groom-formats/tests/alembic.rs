@@ -230,7 +230,7 @@ fn frames_that_do_not_fit_are_refused_and_the_old_file_stays() {
     refused(&|_| {}, 0.0, "frame rate: found 0");
     refused(&|frames| frames.clear(), 24.0, "frames: found none");
     refused(&|frames| frames[1].time = 1.0, 24.0, "frame 1, time: found 1, expected a number over 1");
-    refused(&|frames| drop(frames[1].positions.pop()), 24.0, "frame 1, positions: found 7, expected 8");
+    refused(&|frames| frames[1].positions.truncate(7), 24.0, "frame 1, positions: found 7, expected 8");
     refused(&|frames| frames[0].positions[3].y = f32::NAN, 24.0, "frame 0, positions, point 3: found");
     refused(&|frames| frames[1].velocities = Some(vec![]), 24.0, "frame 1, velocities: found there");
 }

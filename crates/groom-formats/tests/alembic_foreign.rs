@@ -139,7 +139,7 @@ fn moving_transforms_have_times() {
         let hair = curves(file, "hair", &[[0.0; 3], [0.0, 1.0, 0.0]], &[2], LINES, vec![]);
         let matrix = |x: f64| {
             let mut matrix = [0.0; 16];
-            [0, 5, 10, 15].map(|i| matrix[i] = 1.0);
+            [0, 5, 10, 15].into_iter().for_each(|i| matrix[i] = 1.0);
             matrix[12] = x;
             matrix
         };
