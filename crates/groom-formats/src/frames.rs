@@ -15,6 +15,7 @@ pub type Frames = Box<dyn Iterator<Item = Result<Frame, FormatError>>>;
 ///
 /// # Errors
 /// [`FormatError`], which names the file and the place in it; also for formats that hold no motion.
+#[allow(unused_variables)] // with features off
 pub fn read_frames(path: &Path, options: &ReadOptions) -> Result<(Loaded, Frames), FormatError> {
     let name = path.display().to_string();
     let unknown = || FormatError::UnknownFormat { file: name.clone(), expected: read::endings(holds_motion) };

@@ -160,7 +160,7 @@ fn frames(groom: &Groom, times: &[f64], velocities: bool) -> Vec<Frame> {
 }
 
 fn animated(groom: &Groom, frames: &[Frame], rate: f64, path: &Path) {
-    let mut given = frames.to_vec().into_iter().map(Ok);
+    let mut given = frames.iter().cloned().map(Ok);
     let warnings = write_animation(groom, &mut given, rate, path, &WriteOptions::default()).unwrap();
     assert_eq!(warnings, []);
 }
