@@ -138,19 +138,30 @@ fn what_cannot_be_done_exits_with_2_and_leaves_nothing() {
     std::fs::write(folder.path("hair.bin"), TEXT).unwrap();
     std::fs::create_dir(folder.path("folder.txt")).unwrap();
     let before = folder.names();
-    let cases: [(&[&str], &str); 26] = [
+    let cases: [(&[&str], &str); 37] = [
         (&["missing.hair", "out.txt"], "missing.hair"),
         (&["bad.hair", "out.txt"], "bad.hair"),
         (&["bad.txt", "out.hair"], "bad.txt: line 2, column 3: found `x`"),
         (&["dots.txt", "old.usda"], "old.usda: usda needs at least one strand of two points"),
         (&["in.txt", "no such folder/out.txt"], "no such folder"),
-        (&["in.txt", "out.abc"], "expected one of hair, txt, gltf, glb, usda"),
+        (&["in.txt", "out.fbx"], "expected one of hair, txt, usda, usdc"),
         (&["in.txt"], "<OUTPUT>"),
         (&["folder.txt", "out.hair"], "folder.txt: "),
         (&["in.txt", "folder.txt"], "folder.txt: could not replace a folder"),
         (&["in.txt", "out", "--to", "gltf"], "ends with .gltf"),
         (&["hair.bin", "hair.gltf", "--from", "txt"], "hair.bin would be written over the input"),
-        (&["old.usda", "out.txt"], "can be written but not yet read"),
+        (&["old.usda", "out.txt"], "old.usda: "),
+        (&["in.pbrt", "out.txt"], "pbrt can be written and not read"),
+        (&["in.txt", "out.tfx"], "tfx can be read and not written"),
+        (&["in.##.txt", "out.usdc"], "no file of this sequence is there"),
+        (&["in.##.txt", "out.txt"], "txt holds no motion"),
+        (&["in.txt", "out.txt", "--check"], "--check is for USD"),
+        (&["in.txt", "out.usda", "--bake"], "--bake is for USD"),
+        (&["in.txt", "out.usda", "--beta-m", "0.2"], "--material"),
+        (&["in.txt", "out.usda", "--material", "color:1,1"], "--material"),
+        (&["in.txt", "out.usda", "--material", "groom", "--eta", "9"], "9"),
+        (&["in.txt", "out.glb", "--as-mesh", "tubes:2"], "--as-mesh"),
+        (&["in.txt", "out.usda", "--for", "paint"], "--for"),
         (&["-", "out.txt"], "--from"),
         (&["in.txt", "-"], "--to"),
         (&["in.txt", "-", "--to", "gltf"], "--to glb"),
@@ -269,9 +280,22 @@ fn a_reader_that_leaves_early_is_no_error() {
 }
 
 #[test]
+fn formats_are_listed_with_what_they_hold() {
+    let listed = run("cyhair-convert", &["--formats", "--json"]);
+    let listed: serde_json::Value = serde_json::from_slice(&listed.stdout).unwrap();
+    let table = String::from_utf8(run("cyhair-convert", &["--formats"]).stdout).unwrap();
+    for format in Format::ALL {
+        let entry = listed.as_array().unwrap().iter().find(|entry| entry["name"] == format.name()).unwrap();
+        assert_eq!(entry["read"], format.can_read());
+        assert_eq!(entry["written"], format.can_write());
+        assert!(table.lines().any(|line| line.split_whitespace().next() == Some(format.name())), "{format}");
+    }
+}
+
+#[test]
 fn help_names_defaults_and_groups() {
     let help = String::from_utf8(run("cyhair-convert", &["--help"]).stdout).unwrap();
-    for word in ["Reading:", "Strands:", "Look:", "[default: z]", "Exit status: 0"] {
+    for word in ["Reading:", "Strands:", "Look:", "Writing:", "Material", "[default: z", "Exit status: 0"] {
         assert!(help.contains(word), "{word} is not in\n{help}");
     }
 }

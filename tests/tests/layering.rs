@@ -9,13 +9,14 @@ use serde_json::Value;
 
 /// Every crate, low to high, with what it may know of the house. A new arrow is added here and in
 /// ARCHITECTURE.md, or not at all.
-const ARROWS: [(&str, &[&str]); 15] = [
+const ARROWS: [(&str, &[&str]); 16] = [
     ("cyhair", &[]),
     ("groom", &[]),
     ("whole-file", &[]),
     ("error-report", &[]),
     ("fibre-scattering", &[]),
     ("strand-tracing", &[]),
+    ("usd-core", &[]),
     ("usd-layer", &[]),
     ("ogawa", &[]),
     ("gltf-bytes", &[]),
@@ -121,4 +122,52 @@ fn glob_manifests() -> Vec<(String, String)> {
         manifests.extend(paths.filter(|p| p.exists()).map(|p| p.to_string_lossy().into_owned()));
     }
     manifests.into_iter().map(|path| (path.clone(), std::fs::read_to_string(path).unwrap())).collect()
+}
+
+/// What a build that reads and writes only HAIR and text compiles, beside what those crates need themselves.
+const HAIR_AND_TEXT: [&str; 6] = ["bytemuck", "cyhair", "glam", "groom", "whole-file", "zmij"];
+
+/// What only other formats need.
+const OTHER_FORMATS: [&str; 12] = [
+    "base64",
+    "blake3",
+    "crc32fast",
+    "gltf",
+    "gltf-bytes",
+    "half",
+    "image",
+    "lz4_flex",
+    "ogawa",
+    "serde_json",
+    "usd-core",
+    "usd-layer",
+];
+
+#[test]
+fn a_build_with_hair_and_text_compiles_nothing_else() {
+    let library = compiled_for_hair_and_text("groom-formats");
+    for needed in HAIR_AND_TEXT {
+        assert!(library.contains(needed), "{needed} is not in the tree; is this test still right?");
+    }
+    for other in OTHER_FORMATS {
+        assert!(!library.contains(other), "groom-formats compiles {other} for HAIR and text alone");
+    }
+    let program = compiled_for_hair_and_text("cyhair-convert");
+    for other in ["gltf", "gltf-bytes", "lz4_flex", "ogawa", "usd-layer"] {
+        assert!(!program.contains(other), "cyhair-convert compiles {other} for HAIR and text alone");
+    }
+}
+
+/// Every crate that is compiled for `package` when it has those two formats only.
+fn compiled_for_hair_and_text(package: &str) -> BTreeSet<String> {
+    let output = Command::new(env!("CARGO"))
+        .args(["tree", "--offline", "--edges", "normal,build", "--prefix", "none", "--format", "{p}"])
+        .args(["--package", package, "--no-default-features", "--features", "hair,text"])
+        .arg("--manifest-path")
+        .arg(concat!(env!("CARGO_MANIFEST_DIR"), "/../Cargo.toml"))
+        .output()
+        .unwrap();
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let tree = String::from_utf8(output.stdout).unwrap();
+    tree.lines().filter_map(|line| line.split_whitespace().next()).map(str::to_owned).collect()
 }

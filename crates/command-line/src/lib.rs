@@ -13,7 +13,9 @@
 mod interrupt;
 mod outcome;
 mod progress;
+mod words;
 
 pub use interrupt::{interrupted, on_interrupt_ask};
 pub use outcome::{Outcome, run};
 pub use progress::{Bar, progress_bar};
+pub use words::words;

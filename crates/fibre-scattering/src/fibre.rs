@@ -6,7 +6,7 @@
 use crate::attenuation::Chord;
 use crate::azimuthal::{TrimmedLogistic, wrapped};
 use crate::longitudinal::{Inclination, Longitudinal, Mirrors};
-use crate::parameters::{HairParameters, SMALLEST_ROUGHNESS};
+use crate::parameters::{HairParameters, SMALLEST_ROUGHNESS, azimuthal_deviation, longitudinal_variance};
 use crate::real::{Real, four};
 
 /// Position of the residual lobe, the only one without an azimuth of its own.
@@ -74,17 +74,10 @@ impl<T: Real> Fibre<T> {
     }
 }
 
-/// v of R from the roughness along the fibre: Chiang et al. 2016, eq. 7.
-fn longitudinal_variance(beta_m: f64) -> f64 {
-    let deviation = 0.726 * beta_m + 0.812 * beta_m * beta_m + 3.7 * beta_m.powi(20);
-    deviation * deviation
-}
-
 /// The logistic's scale from the roughness around the fibre: Chiang et al. 2016, eq. 8. The root of
 /// pi/8 gives the logistic the peak of a Gaussian of that deviation.
 fn logistic_scale(beta_n: f64) -> f64 {
-    let deviation = 0.265 * beta_n + 1.194 * beta_n * beta_n + 5.372 * beta_n.powi(22);
-    (std::f64::consts::PI / 8.0).sqrt() * deviation
+    (std::f64::consts::PI / 8.0).sqrt() * azimuthal_deviation(beta_n)
 }
 
 /// How far each lobe turns the outgoing inclination. The residual has met so many scales that no

@@ -76,4 +76,41 @@ impl HairParameters {
         }
         Ok(())
     }
+
+    /// What other shaders ask for instead of the roughnesses: for R, TT and TRT the longitudinal variance v
+    /// and the azimuthal scale s of Chiang et al. 2016, eqs. 7 and 8. s is without the factor sqrt(pi/8),
+    /// which MaterialX's `chiang_hair_bsdf` applies itself (its `roughness_R`, `roughness_TT`, `roughness_TRT`).
+    #[must_use]
+    pub fn lobe_spreads(&self) -> [[f32; 2]; 3] {
+        let v = longitudinal_variance(f64::from(self.beta_m.max(SMALLEST_ROUGHNESS)));
+        let s = azimuthal_deviation(f64::from(self.beta_n.max(SMALLEST_ROUGHNESS)));
+        [v, 0.25 * v, 4.0 * v].map(|v| [v as f32, s as f32])
+    }
+}
+
+/// v of R from the roughness along the fibre: Chiang et al. 2016, eq. 7.
+pub(crate) fn longitudinal_variance(beta_m: f64) -> f64 {
+    let deviation = 0.726 * beta_m + 0.812 * beta_m * beta_m + 3.7 * beta_m.powi(20);
+    deviation * deviation
+}
+
+/// s from the roughness around the fibre: Chiang et al. 2016, eq. 8 without the root of pi/8.
+pub(crate) fn azimuthal_deviation(beta_n: f64) -> f64 {
+    0.265 * beta_n + 1.194 * beta_n * beta_n + 5.372 * beta_n.powi(22)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn spreads_are_those_of_materialx() {
+        // What ND_chiang_hair_roughness gives for longitudinal 0.1, azimuthal 0.2 and scales 0.5 and 2.
+        let parameters = HairParameters { beta_m: 0.1, beta_n: 0.2, ..HairParameters::default() };
+        let [r, tt, trt] = parameters.lobe_spreads();
+        let v = (0.0726_f32 + 0.00812).powi(2);
+        for (found, expected) in [(r, v), (tt, 0.25 * v), (trt, 4.0 * v)] {
+            assert!((found[0] - expected).abs() < 1e-7 && (found[1] - 0.10076).abs() < 1e-6, "{found:?}");
+        }
+    }
 }

@@ -113,6 +113,28 @@ impl Format {
         self.facts().title
     }
 
+    /// What of a groom it can hold, in a few words.
+    #[must_use]
+    pub fn holds(self) -> &'static str {
+        match self {
+            Format::Hair => "points, width, transparency, colour by vertex",
+            Format::Text => "points, width, colour, transparency by vertex",
+            Format::Usda | Format::Usdc | Format::Usdz => {
+                "everything: all attributes, unit, up axis, motion, velocities, material"
+            }
+            Format::Alembic => "all attributes, unit and up axis (as properties of ours), motion, velocities",
+            Format::Gltf | Format::Glb => {
+                "lines with width and colour in 8 bits; all attributes if asked; tubes, ribbons; metres, y up"
+            }
+            Format::Ply => "points, width, colour and other attributes by vertex",
+            Format::Data => "points",
+            Format::Obj => "points, colour by vertex",
+            Format::Pbrt => "cubic curves with width, a hair material",
+            Format::Tfx | Format::MonoHair => "points",
+            Format::Ct2Hair => "points and four more numbers a point",
+        }
+    }
+
     /// The cargo feature it is built with.
     #[must_use]
     pub fn feature(self) -> &'static str {

@@ -40,7 +40,7 @@
         feature = "monohair",
         feature = "ct2hair"
     )),
-    allow(dead_code, unused_imports)
+    allow(dead_code, unreachable_code, unused_imports, unused_mut, unused_variables)
 )]
 
 #[cfg(feature = "alembic")]

@@ -2,7 +2,7 @@
 
 use groom::{Groom, UpAxis};
 
-use crate::Warning;
+use crate::{Format, Warning};
 
 /// What a reader needs to know that the file does not say.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,6 +35,8 @@ pub struct Loaded {
     pub repairs: Vec<String>,
     /// What a HAIR file holds beside the groom; `None` for other formats.
     pub hair: Option<HairExtras>,
+    /// What the file turned out to be; readers of one format leave it open.
+    pub format: Option<Format>,
     /// Times at which an animated file has positions, in its frames; empty for a still.
     pub times: Vec<f64>,
     /// Frames a second of an animated file.
@@ -50,6 +52,7 @@ impl Loaded {
             warnings: Vec::new(),
             repairs: Vec::new(),
             hair: None,
+            format: None,
             times: Vec::new(),
             frame_rate: None,
         }

@@ -17,6 +17,7 @@ pub fn read(path: &Path, options: &ReadOptions) -> Result<Loaded, FormatError> {
     let name = path.display().to_string();
     let format = Format::from_path(path)
         .ok_or_else(|| FormatError::UnknownFormat { file: name.clone(), expected: readable() })?;
+    refuse_unreadable(format, &name)?;
     let file = File::open(path).map_err(|e| FormatError::io(&name, e))?;
     // The length of a pipe or device is 0 or a guess; only a plain file's can be relied on.
     let length = file.metadata().ok().filter(|m| m.is_file()).map(|m| m.len());
@@ -55,7 +56,7 @@ fn read_at(
     let format = format.sniff(&head);
     refuse_unreadable(format, name)?;
     let stream = Cursor::new(head).chain(stream);
-    match format {
+    let loaded = match format {
         #[cfg(feature = "hair")]
         Format::Hair => crate::hair::read(stream, name, options),
         #[cfg(feature = "text")]
@@ -84,7 +85,8 @@ fn read_at(
         Format::Ct2Hair => crate::ct2hair::read(&whole(stream, name, options)?, name, options),
         #[allow(unreachable_patterns)] // reached when features are off
         _ => Err(unreadable(format, name)),
-    }
+    };
+    loaded.map(|loaded| Loaded { format: Some(format), ..loaded })
 }
 
 /// Every byte of the stream, in one allocation where the length is known.

@@ -1,6 +1,6 @@
 //! Streams that count their bytes and show them on a bar.
 
-use std::io::{self, Read, Write};
+use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use command_line::Bar;
 
@@ -45,5 +45,11 @@ impl<S: Write> Write for Counted<S> {
 
     fn flush(&mut self) -> io::Result<()> {
         self.stream.flush()
+    }
+}
+
+impl<S: Seek> Seek for Counted<S> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.stream.seek(to)
     }
 }

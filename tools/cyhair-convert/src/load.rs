@@ -2,10 +2,11 @@
 
 use std::fs::File;
 use std::io;
+use std::path::Path;
 
 use anyhow::{Context, Result};
 use command_line::progress_bar;
-use groom_formats::{Format, Loaded, ReadOptions, read_from};
+use groom_formats::{Format, Loaded, ReadOptions, read, read_from};
 
 use crate::args::{Args, is_stream};
 use crate::counted::Counted;
@@ -18,27 +19,37 @@ pub(crate) struct Input {
     pub(crate) loaded: Loaded,
 }
 
+/// Reads the input as it was named.
 pub(crate) fn load(args: &Args) -> Result<Input> {
+    load_from(args.input(), args)
+}
+
+/// Reads `path` with the options of the input.
+pub(crate) fn load_from(path: &Path, args: &Args) -> Result<Input> {
     let format = args.input_format()?;
-    let mut options = ReadOptions {
-        up_axis: args.input_up.map(Into::into),
-        meters_per_unit: args.meters_per_unit,
-        repair: args.repair,
-        ..ReadOptions::default()
-    };
-    let (name, loaded, bytes) = if is_stream(&args.input) {
+    let options = args.reading.options();
+    if is_stream(path) {
         let name = "standard input".to_owned();
         let mut stream = Counted::new(io::stdin().lock(), progress_bar(0, "reading"));
         let loaded = read_from(format, &mut stream, &name, &options)?;
-        (name, loaded, stream.finish().1)
-    } else {
-        let name = args.input.display().to_string();
-        let file = File::open(&args.input).with_context(|| name.clone())?;
-        // A pipe's or a device's length says nothing.
-        options.known_len = file.metadata().ok().filter(|m| m.is_file()).map(|m| m.len());
-        let mut stream = Counted::new(file, progress_bar(options.known_len.unwrap_or(0), "reading"));
-        let loaded = read_from(format, &mut stream, &name, &options)?;
-        (name, loaded, stream.finish().1)
-    };
-    Ok(Input { name, format, bytes, loaded })
+        return Ok(Input { name, format: loaded.format.unwrap_or(format), bytes: stream.finish().1, loaded });
+    }
+    let name = path.display().to_string();
+    let file = File::open(path).with_context(|| name.clone())?;
+    // A pipe's or a device's length says nothing.
+    let known_len = file.metadata().ok().filter(|m| m.is_file()).map(|m| m.len());
+    let options = ReadOptions { known_len, ..options };
+    if format == Format::Gltf && Format::from_path(path) == Some(format) {
+        // Its bytes are in a file beside it, which a stream would not find.
+        let loaded = read(path, &options)?;
+        return Ok(Input {
+            name,
+            format: loaded.format.unwrap_or(format),
+            bytes: known_len.unwrap_or(0),
+            loaded,
+        });
+    }
+    let mut stream = Counted::new(file, progress_bar(known_len.unwrap_or(0), "reading"));
+    let loaded = read_from(format, &mut stream, &name, &options)?;
+    Ok(Input { name, format: loaded.format.unwrap_or(format), bytes: stream.finish().1, loaded })
 }

@@ -4,10 +4,17 @@ mod args;
 mod convert;
 mod counted;
 mod edit;
+mod formats;
 mod info;
 mod load;
+mod material;
+mod motion;
 mod report;
+mod sequence;
+mod store;
+mod streaming;
 mod texture;
+mod usd;
 
 use std::process::ExitCode;
 
@@ -17,10 +24,12 @@ use command_line::Outcome;
 fn main() -> ExitCode {
     let args = args::Args::parse();
     command_line::run(|| {
-        if args.info {
-            info::run(&args)?
+        if args.formats {
+            formats::run(args.json)?;
+        } else if args.info {
+            info::run(&args)?;
         } else {
-            convert::run(&args)?
+            return convert::run(&args);
         }
         Ok(Outcome::Good)
     })

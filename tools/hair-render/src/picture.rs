@@ -1,6 +1,5 @@
 //! Rendering one picture and saying what it cost.
 
-use std::ffi::OsStr;
 use std::io::Write;
 use std::path::Path;
 
@@ -73,9 +72,8 @@ fn trace(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Op
 }
 
 fn write(args: &Args, output: &Path, camera: Camera, frame: &Frame) -> Result<()> {
-    let words: Vec<String> = std::env::args_os().map(|word| quoted(&word)).collect();
     let metadata = Metadata {
-        command: words.join(" "),
+        command: command_line::words(),
         camera: Some(camera),
         precision: if args.quality.half { Precision::Half } else { Precision::Float },
         ..Metadata::default()
@@ -87,17 +85,6 @@ fn write(args: &Args, output: &Path, camera: Camera, frame: &Frame) -> Result<()
         tone_map(frame, &mapping).write_png(png)?;
     }
     Ok(())
-}
-
-/// A word as a shell would have to be given it.
-fn quoted(word: &OsStr) -> String {
-    let word = word.to_string_lossy();
-    let plain = |c: char| c.is_alphanumeric() || "-_./,:=+@%".contains(c);
-    if !word.is_empty() && word.chars().all(plain) {
-        word.into_owned()
-    } else {
-        format!("'{}'", word.replace('\'', "'\\''"))
-    }
 }
 
 fn settings(args: &Args) -> RenderSettings {
@@ -142,22 +129,4 @@ fn report(args: &Args, frame: &Frame, output: &Path) -> Result<()> {
 fn say(line: &str) {
     // `eprintln!` would panic when nobody reads stderr any more.
     let _ = writeln!(std::io::stderr(), "{line}");
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn words_are_quoted_only_where_a_shell_needs_it() {
-        for (word, expected) in [
-            ("a/b-c.hair", "a/b-c.hair"),
-            ("", "''"),
-            ("my hair", "'my hair'"),
-            ("it's", r"'it'\''s'"),
-            ("髪.hair", "髪.hair"),
-        ] {
-            assert_eq!(quoted(OsStr::new(word)), expected);
-        }
-    }
 }

@@ -60,7 +60,7 @@ fn run(args: &Args) -> anyhow::Result<Outcome> {
         output: args.out.clone(),
         frames: args.frames.clone(),
         threads: args.threads.map(usize::from),
-        command: std::env::args().collect::<Vec<_>>().join(" "),
+        command: command_line::words(),
     };
     let plan = Plan::new(&args.pipeline, options)?;
     if args.explain || args.check {

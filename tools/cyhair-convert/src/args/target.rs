@@ -8,10 +8,19 @@ use groom_formats::Format;
 use super::{Args, Up};
 
 impl Args {
+    /// What to read; only `--formats` goes without.
+    pub(crate) fn input(&self) -> &Path {
+        self.input.as_deref().unwrap_or(Path::new(""))
+    }
+
     /// The input's format, by option or ending.
     pub(crate) fn input_format(&self) -> Result<Format> {
         let readable = |format: Format| format.can_read();
-        choose(self.from, &self.input, "--from", "standard input", &endings(readable))
+        let format = choose(self.from, self.input(), "--from", "standard input", &endings(readable))?;
+        if format.is_built() && !format.can_read() {
+            bail!("{}: {format} can be written and not read", self.input().display());
+        }
+        Ok(format)
     }
 
     /// Where to write, and in which format; refuses what cannot go together.
@@ -45,7 +54,7 @@ impl Args {
         }
         let bytes = output.with_extension("bin");
         let same = |input: &Path| Some(input.canonicalize().ok()? == bytes.canonicalize().ok()?);
-        if same(&self.input) == Some(true) {
+        if same(self.input()) == Some(true) {
             bail!("{} would be written over the input; use --to glb or another name", bytes.display());
         }
         Ok(())

@@ -1,0 +1,97 @@
+//! The package, found and ready.
+
+use std::collections::BTreeMap;
+use std::ffi::OsStr;
+use std::path::{Path, PathBuf};
+use std::process::{Command, Output, Stdio};
+
+use tempfile::TempDir;
+
+use crate::{Finding, UsdCoreError, python, scripts};
+
+/// What `check.py` exits with when it found something: its answer is then whole all the same.
+const FOUND_WANTING: i32 = 1;
+
+/// usd-core in a Python of this machine.
+#[derive(Debug)]
+pub struct UsdCore {
+    python: PathBuf,
+    scripts: TempDir,
+}
+
+/// How an animated stage is baked.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct BakeOptions {
+    /// Time codes between samples; `None` is 1, less gives sub-frames.
+    pub step: Option<f64>,
+    /// First and last time code; `None` takes the stage's own.
+    pub frames: Option<(f64, f64)>,
+}
+
+impl UsdCore {
+    /// Looks for a Python that has the package.
+    ///
+    /// # Errors
+    /// [`UsdCoreError::Missing`], which says how to install it.
+    pub fn find() -> Result<UsdCore, UsdCoreError> {
+        Ok(UsdCore { python: python::find()?, scripts: scripts::unpack()? })
+    }
+
+    /// Runs every validator that usd-core ships and groomkit's rules for hair curves on `file`.
+    ///
+    /// # Errors
+    /// [`UsdCoreError::Failed`] when the file cannot be opened as a stage.
+    pub fn check(&self, file: &Path) -> Result<Vec<Finding>, UsdCoreError> {
+        const SCRIPT: &str = "check.py";
+        let output = self.run(SCRIPT, file, [OsStr::new("--json"), file.as_os_str()])?;
+        let report: Result<BTreeMap<String, Vec<Finding>>, _> = serde_json::from_slice(&output.stdout);
+        let name = file.display().to_string();
+        let report = report.map_err(|source| UsdCoreError::Answer { script: SCRIPT, file: name, source })?;
+        Ok(report.into_values().flatten().collect())
+    }
+
+    /// Flattens composition and turns every animation (skins, blend shapes, transforms) of the stage `input` into
+    /// plain points a sample, written to `output` (`.usda` or `.usdc`).
+    ///
+    /// # Errors
+    /// [`UsdCoreError::Failed`]; `output` is then as it was.
+    pub fn bake(&self, input: &Path, output: &Path, options: BakeOptions) -> Result<(), UsdCoreError> {
+        let mut arguments = vec![input.as_os_str().to_owned(), output.as_os_str().to_owned()];
+        if let Some(step) = options.step {
+            arguments.extend(["--step".into(), step.to_string().into()]);
+        }
+        if let Some((first, last)) = options.frames {
+            arguments.extend(["--frames".into(), format!("{first}:{last}").into()]);
+        }
+        self.run("bake.py", input, arguments).map(drop)
+    }
+
+    /// Packages the stage `input` and all it refers to as `output`, a `.usdz`.
+    ///
+    /// # Errors
+    /// [`UsdCoreError::Failed`]; `output` is then as it was.
+    pub fn package(&self, input: &Path, output: &Path) -> Result<(), UsdCoreError> {
+        self.run("package.py", input, [input, output]).map(drop)
+    }
+
+    fn run(
+        &self,
+        script: &'static str,
+        file: &Path,
+        arguments: impl IntoIterator<Item = impl AsRef<OsStr>>,
+    ) -> Result<Output, UsdCoreError> {
+        // -B: nothing is to be compiled into a folder that goes away.
+        let mut command = Command::new(&self.python);
+        command.arg("-B").arg(self.scripts.path().join(script)).args(arguments).stdin(Stdio::null());
+        let output = command
+            .output()
+            .map_err(|e| UsdCoreError::io(format!("{} {script}", self.python.display()), e))?;
+        if matches!(output.status.code(), Some(0 | FOUND_WANTING)) {
+            return Ok(output);
+        }
+        let told = String::from_utf8_lossy(&output.stderr);
+        let told = told.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
+        let (file, told) = (file.display().to_string(), format!("{told} ({})", output.status));
+        Err(UsdCoreError::Failed { script, file, told })
+    }
+}
