@@ -7,11 +7,12 @@ use tempfile::TempDir;
 use crate::UsdCoreError;
 
 /// Name and text of each; they import one another by these names.
-const SCRIPTS: [(&str, &str); 4] = [
+const SCRIPTS: [(&str, &str); 5] = [
     ("check.py", include_str!("../../../tools/usd/check.py")),
     ("curve_rules.py", include_str!("../../../tools/usd/curve_rules.py")),
     ("bake.py", include_str!("../../../tools/usd/bake.py")),
     ("package.py", include_str!("../../../tools/usd/package.py")),
+    ("whole_file.py", include_str!("../../../tools/usd/whole_file.py")),
 ];
 
 /// Writes them to a folder that goes away with the value.
