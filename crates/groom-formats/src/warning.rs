@@ -158,6 +158,30 @@ pub enum Warning {
         /// The largest difference, on the attribute's own scale.
         error: f32,
     },
+    /// Triangles or points among the lines.
+    #[error("{primitives} primitives of the {format} file are no lines; they are skipped")]
+    PrimitivesSkipped {
+        /// The format read.
+        format: Format,
+        /// How many, each time a mesh is shown.
+        primitives: usize,
+    },
+    /// An attribute of the file has no place in a groom, or two types.
+    #[error("the attribute `{name}` of the {format} file is not read")]
+    AttributeNotRead {
+        /// The format read.
+        format: Format,
+        /// Its name in the file.
+        name: String,
+    },
+    /// Only some of the strands have the attribute.
+    #[error("only some strands of the {format} file have `{name}`; elsewhere it is 0, or white")]
+    AttributePartly {
+        /// The format read.
+        format: Format,
+        /// The attribute's name in the groom.
+        name: String,
+    },
     /// Positions were rounded to a grid, as was asked.
     #[error("{format} holds positions in {bits} bits; they are off by up to {error:.1e} m")]
     PositionsRounded {
