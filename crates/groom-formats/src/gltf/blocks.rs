@@ -29,6 +29,15 @@ impl<'s, W: Write, T: NoUninit> Blocks<'s, W, T> {
         Ok(())
     }
 
+    #[inline]
+    pub(super) fn push_all(&mut self, values: &[T]) -> io::Result<()> {
+        if self.values.len() + values.len() > self.full {
+            self.flush()?;
+        }
+        self.values.extend_from_slice(values);
+        Ok(())
+    }
+
     /// Values that are as they should be already.
     pub(super) fn write(&mut self, values: &[T]) -> io::Result<()> {
         self.flush()?;

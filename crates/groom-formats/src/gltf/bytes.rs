@@ -10,12 +10,21 @@ use super::Plan;
 use super::blocks::Blocks;
 use super::extra::Extra;
 use super::runs::runs;
+use super::surface;
 use super::views::Content;
 
 pub(super) fn write(plan: &Plan<'_>, stream: &mut impl Write) -> io::Result<()> {
     for view in &plan.views {
         match view.content {
             Content::Lines => lines(plan, stream)?,
+            Content::Triangles => {
+                let Some(surface) = &plan.surface else { continue };
+                surface::write_triangles(surface, plan.drawable, stream)?;
+            }
+            Content::Surface => {
+                let Some(surface) = &plan.surface else { continue };
+                surface::write_vertices(surface, plan, stream)?;
+            }
             Content::Positions => positions(plan, stream)?,
             Content::Colors => {
                 let Some(colors) = plan.colors else { continue };
@@ -96,16 +105,20 @@ fn each_point<T: NoUninit>(
     blocks.finish()
 }
 
-/// `make` gets strand and vertex, as indices in the groom.
+/// `make` gets strand and vertex, as indices in the groom; every vertex of a surface gets its point's.
 fn each_vertex<T: NoUninit>(
     plan: &Plan<'_>,
     stream: &mut impl Write,
     make: impl Fn(usize, usize) -> T,
 ) -> io::Result<()> {
     let mut blocks = Blocks::new(stream);
+    let times = plan.surface.as_ref().map_or(1, surface::Surface::per_point);
     for (strand, range) in plan.drawable.strands() {
         for vertex in range {
-            blocks.push(make(strand, vertex))?;
+            let value = make(strand, vertex);
+            for _ in 0..times {
+                blocks.push(value)?;
+            }
         }
     }
     blocks.finish()

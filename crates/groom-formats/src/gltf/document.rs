@@ -14,6 +14,7 @@ use gltf::json::{Accessor, Buffer, Index, Material, Mesh, Node, Root, Scene, ser
 use gltf::mesh::Semantic;
 
 use super::Plan;
+use super::surface::Surface;
 use super::views::{self, Field};
 
 pub(super) fn json(plan: &Plan<'_>, bytes_name: Option<&[u8]>) -> io::Result<Vec<u8>> {
@@ -58,8 +59,8 @@ impl Builder {
                 }
             }
         }
-        let material = Some(self.root.push(hair_material(plan.is_clear)));
-        let mode = Valid(Mode::Lines);
+        let material = Some(self.root.push(hair_material(plan)));
+        let mode = Valid(if plan.surface.is_some() { Mode::Triangles } else { Mode::Lines });
         Primitive { attributes, extensions: None, extras: None, indices, material, mode, targets: None }
     }
 
@@ -129,10 +130,11 @@ impl Builder {
 
 /// White, so that COLOR_0 shows as it is; glTF's default material is a metal, which hair is not. Alpha
 /// is looked at only when the material asks for it.
-fn hair_material(is_clear: bool) -> Material {
+fn hair_material(plan: &Plan<'_>) -> Material {
     Material {
         name: Some("Hair".to_owned()),
-        alpha_mode: Valid(if is_clear { AlphaMode::Blend } else { AlphaMode::Opaque }),
+        alpha_mode: Valid(if plan.is_clear { AlphaMode::Blend } else { AlphaMode::Opaque }),
+        double_sided: plan.surface.as_ref().is_some_and(Surface::is_ribbon),
         pbr_metallic_roughness: PbrMetallicRoughness {
             base_color_factor: PbrBaseColorFactor([1.0; 4]),
             metallic_factor: StrengthFactor(0.0),

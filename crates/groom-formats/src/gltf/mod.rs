@@ -10,6 +10,9 @@
 //!
 //! # Options
 //!
+//! [`mesh`](crate::WriteOptions::mesh) makes triangles of the strands: [`surface`]. POSITION, NORMAL, TEXCOORD_0 and
+//! COLOR_0 of a vertex lie side by side.
+//!
 //! [`all_attributes`](crate::WriteOptions::all_attributes) adds `_STRAND` (the `id`), `_ROOT_UV`, `_GROUP`, `_GUIDE`,
 //! `_VELOCITY` (turned, in metres per second) and every other attribute as `_NAME`, one value a vertex, as 32-bit
 //! floats; integers that floats cannot hold and values that are not finite are left out with a warning.
@@ -32,6 +35,7 @@ mod plan;
 mod read;
 mod runs;
 mod space;
+mod surface;
 mod views;
 
 pub(crate) use glb::write_glb;

@@ -10,6 +10,7 @@ use super::colors::Colors;
 use super::grid::Grid;
 use super::runs::runs;
 use super::space::Space;
+use super::surface::{self, Surface};
 use super::views::{self, View};
 use super::{bytes, document, extra};
 use crate::drawable::Drawable;
@@ -28,6 +29,8 @@ pub(crate) struct Plan<'a> {
     pub(super) colors: Option<Colors<'a>>,
     /// Whether any point as written lets light through.
     pub(super) is_clear: bool,
+    /// `None` for lines.
+    pub(super) surface: Option<Surface<'a>>,
     pub(super) views: Vec<View<'a>>,
     /// The `extras` of the mesh.
     pub(super) marks: Option<Value>,
@@ -44,8 +47,14 @@ impl<'a> Plan<'a> {
         let mut warnings = Vec::new();
         let drawable = Drawable::new(groom, format, file, &mut warnings)?;
         let space = Space::of(groom);
-        let bounds = space.bounds(drawable);
-        let held = [names::RADIUS, names::COLOR, names::TRANSPARENCY];
+        let surface = Surface::of(groom, options);
+        let bounds = match &surface {
+            Some(surface) => surface::bounds(surface, drawable, space),
+            None => space.bounds(drawable),
+        };
+        let mut held = vec![names::RADIUS, names::COLOR, names::TRANSPARENCY];
+        // Tubes and ribbons have it as their texture coordinate.
+        held.extend(surface.as_ref().map(|_| names::ROOT_UV).filter(|_| !options.all_attributes));
         let extras = if options.all_attributes {
             extra::extras(groom, format, &held, &mut warnings)
         } else {
@@ -61,13 +70,17 @@ impl<'a> Plan<'a> {
             grid: None,
             colors,
             is_clear,
+            surface,
             views: Vec::new(),
             marks: None,
             warnings,
         };
         plan.refuse_infinite(format, file, options.quantize.is_some())?;
         plan.round_positions(format, options.quantize);
-        plan.views = views::of_lines(&plan, &extras);
+        plan.views = match &plan.surface {
+            Some(surface) => views::of_surface(&plan, surface, &extras),
+            None => views::of_lines(&plan, &extras),
+        };
         if options.all_attributes {
             plan.marks = Some(plan.marks_of(groom, &extras));
         }

@@ -7,6 +7,7 @@ use gltf::mesh::Semantic;
 
 use super::Plan;
 use super::extra::Extra;
+use super::surface::Surface;
 
 /// One array of the buffer: equal elements one after the other, each of one or several fields.
 pub(super) struct View<'a> {
@@ -28,6 +29,10 @@ impl View<'_> {
 pub(super) enum Content<'a> {
     /// Two indices a segment.
     Lines,
+    /// Indices of tubes and ribbons.
+    Triangles,
+    /// Vertices of tubes and ribbons, all fields side by side.
+    Surface,
     Positions,
     Colors,
     Widths,
@@ -94,6 +99,37 @@ pub(super) fn of_lines<'a>(plan: &Plan<'a>, extras: &[(String, Extra<'a>)]) -> V
     let width = Field::new(Some(Semantic::Extras("WIDTH".to_owned())), ComponentType::F32, Type::Scalar);
     views.push(View { content: Content::Widths, count: points, stride: 4, fields: vec![width] });
     views.extend(extras.iter().map(|(name, extra)| of_extra(name, *extra, points)));
+    views
+}
+
+/// The arrays of tubes or ribbons.
+pub(super) fn of_surface<'a>(
+    plan: &Plan<'a>,
+    surface: &Surface<'_>,
+    extras: &[(String, Extra<'a>)],
+) -> Vec<View<'a>> {
+    let indices = View {
+        content: Content::Triangles,
+        count: surface.index_count(plan.drawable),
+        stride: 4,
+        fields: vec![Field::new(None, ComponentType::U32, Type::Scalar)],
+    };
+    let count = plan.drawable.points * surface.per_point();
+    let (position, mut stride) = Field::position(plan);
+    let mut fields = vec![position];
+    let mut add = |semantic, component, kind, bytes: usize| {
+        let field = Field::new(Some(semantic), component, kind);
+        let normalized = component == ComponentType::U8;
+        fields.push(Field { offset: stride, normalized, ..field });
+        stride += bytes;
+    };
+    add(Semantic::Normals, ComponentType::F32, Type::Vec3, 12);
+    add(Semantic::TexCoords(0), ComponentType::F32, Type::Vec2, 8);
+    if plan.colors.is_some() {
+        add(Semantic::Colors(0), ComponentType::U8, Type::Vec4, 4);
+    }
+    let mut views = vec![indices, View { content: Content::Surface, count, stride, fields }];
+    views.extend(extras.iter().map(|(name, extra)| of_extra(name, *extra, count)));
     views
 }
 
