@@ -38,77 +38,126 @@ impl<'a> Colors<'a> {
 
     /// Warns of what 8 bits lose; says whether there is anything to see through.
     pub(super) fn judge(&self, drawable: Drawable<'_>, format: Format, warnings: &mut Vec<Warning>) -> bool {
-        let (mut color, mut alpha) = (Loss::default(), Loss::default());
+        let (mut color, mut clear) = (Loss::default(), Loss::default());
         for run in runs(drawable) {
             match self.color {
-                Vec3View::Constant(value) => color.add(value.to_array(), run.vertices.len()),
+                Vec3View::Constant(value) => color.add(&[value.to_array()], |_| run.vertices.len()),
                 Vec3View::Strand(values) => {
-                    each_strand(&run, drawable, |strand, points| {
-                        color.add(values[strand].to_array(), points)
-                    });
+                    color.add::<3>(
+                        bytemuck::cast_slice(&values[run.strands.clone()]),
+                        lengths(&run, drawable),
+                    );
                 }
                 Vec3View::Vertex(values) => {
-                    values[run.vertices.clone()].iter().for_each(|value| color.add(value.to_array(), 1));
+                    color.add::<3>(bytemuck::cast_slice(&values[run.vertices.clone()]), |_| 1);
                 }
             }
             match self.transparency {
-                FloatView::Constant(value) => alpha.add([1.0 - value], run.vertices.len()),
+                FloatView::Constant(value) => clear.add(&[[value]], |_| run.vertices.len()),
                 FloatView::Strand(values) => {
-                    each_strand(&run, drawable, |strand, points| alpha.add([1.0 - values[strand]], points));
+                    clear.add::<1>(
+                        bytemuck::cast_slice(&values[run.strands.clone()]),
+                        lengths(&run, drawable),
+                    );
                 }
                 FloatView::Vertex(values) => {
-                    values[run.vertices].iter().for_each(|&value| alpha.add([1.0 - value], 1));
+                    clear.add::<1>(bytemuck::cast_slice(&values[run.vertices.clone()]), |_| 1);
                 }
             }
         }
-        for (name, loss) in [(names::COLOR, &color), (names::TRANSPARENCY, &alpha)] {
+        for (name, loss) in [(names::COLOR, &color), (names::TRANSPARENCY, &clear)] {
             if loss.clamped > 0 {
                 warnings.push(Warning::Clamped { format, name, values: loss.clamped });
             }
             // Below this the value is one that came from 8 bits.
-            if loss.error > 1e-6 {
-                warnings.push(Warning::Rounded { format, name, error: loss.error });
+            let error = loss.error.into_iter().fold(0.0, f32::max) / 255.0;
+            if error > 1e-6 {
+                warnings.push(Warning::Rounded { format, name, error });
             }
         }
-        alpha.least < u8::MAX
+        in_8_bits(1.0 - clear.largest()) < u8::MAX
     }
 }
 
-fn each_strand(run: &Run, drawable: Drawable<'_>, mut body: impl FnMut(usize, usize)) {
-    for strand in run.strands.clone() {
-        body(strand, drawable.groom.strand_range(strand).len());
-    }
+/// Points of the strands of a run.
+fn lengths<'a>(run: &'a Run, drawable: Drawable<'a>) -> impl Fn(usize) -> usize + 'a {
+    move |i| drawable.groom.strand_range(run.strands.start + i).len()
 }
 
-/// What an attribute loses in 8 bits.
+const LANES: usize = 8;
+
+/// What an attribute loses in 8 bits. Lanes let processors look at several numbers at once.
 struct Loss {
     clamped: usize,
-    error: f32,
-    least: u8,
+    /// In 255ths.
+    error: [f32; LANES],
+    least: [f32; LANES],
+    most: [f32; LANES],
 }
 
 impl Default for Loss {
     fn default() -> Self {
-        Loss { clamped: 0, error: 0.0, least: u8::MAX }
+        let (least, most) = ([f32::INFINITY; LANES], [f32::NEG_INFINITY; LANES]);
+        Loss { clamped: 0, error: [0.0; LANES], least, most }
     }
 }
 
 impl Loss {
-    #[inline]
-    fn add<const N: usize>(&mut self, channels: [f32; N], points: usize) {
-        let mut inside = true;
-        for channel in channels {
-            inside &= (0.0..=1.0).contains(&channel);
-            let stored = in_8_bits(channel);
-            self.error = self.error.max((channel.clamp(0.0, 1.0) - f32::from(stored) / 255.0).abs());
-            self.least = self.least.min(stored);
+    /// Adds values of `N` channels; `points` says how many points have value `i`.
+    fn add<const N: usize>(&mut self, values: &[[f32; N]], points: impl Fn(usize) -> usize) {
+        let mut here = Loss::default();
+        let (lanes, rest) = values.as_flattened().as_chunks::<LANES>();
+        lanes.iter().for_each(|lanes| here.look(lanes));
+        rest.iter().for_each(|&value| here.look(&[value; LANES]));
+        if here.least.iter().any(|&v| v < 0.0) || here.most.iter().any(|&v| v > 1.0) {
+            let is_outside = |value: &[f32; N]| value.iter().any(|v| !(0.0..=1.0).contains(v));
+            let outside = values.iter().enumerate().filter(|(_, value)| is_outside(value));
+            self.clamped += outside.map(|(i, _)| points(i)).sum::<usize>();
         }
-        self.clamped += if inside { 0 } else { points };
+        for i in 0..LANES {
+            self.error[i] = self.error[i].max(here.error[i]);
+            self.most[i] = self.most[i].max(here.most[i]);
+        }
+    }
+
+    #[inline]
+    fn look(&mut self, values: &[f32; LANES]) {
+        for i in 0..LANES {
+            let value = values[i];
+            self.least[i] = if value < self.least[i] { value } else { self.least[i] };
+            self.most[i] = if value > self.most[i] { value } else { self.most[i] };
+            let exact = value.clamp(0.0, 1.0) * 255.0;
+            let error = (exact - ((exact + INTEGERS) - INTEGERS)).abs();
+            self.error[i] = if error > self.error[i] { error } else { self.error[i] };
+        }
+    }
+
+    fn largest(&self) -> f32 {
+        self.most.into_iter().fold(f32::NEG_INFINITY, f32::max)
     }
 }
+
+/// From here to twice of it, floats are integers: added to it, a small number is rounded to the nearest and is
+/// the lowest bits of the sum.
+const INTEGERS: f32 = (1_u32 << 23) as f32;
 
 /// A number from 0 to 1 as glTF normalises it, rounded to the nearest; what lies outside is clamped.
 #[inline]
 fn in_8_bits(value: f32) -> u8 {
-    (value.clamp(0.0, 1.0) * 255.0 + 0.5) as u8
+    (value.clamp(0.0, 1.0) * 255.0 + INTEGERS).to_bits() as u8
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn eight_bits_are_the_nearest() {
+        for i in 0..=255 {
+            assert_eq!(in_8_bits(i as f32 / 255.0), i as u8);
+            assert_eq!(in_8_bits((i as f32 + 0.49) / 255.0), i as u8);
+            assert_eq!(in_8_bits((i as f32 - 0.49) / 255.0), i as u8);
+        }
+        assert_eq!((in_8_bits(-3.0), in_8_bits(7.0)), (0, 255));
+    }
 }

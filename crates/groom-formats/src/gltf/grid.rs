@@ -6,6 +6,8 @@ use glam::{DVec3, Vec3};
 const STORED: u32 = 16;
 /// What stands for 1 in 16 normalised bits.
 const ONE: f64 = 65535.0;
+/// From here to twice of it, doubles are integers.
+const INTEGERS: f64 = (1_u64 << 52) as f64;
 
 /// A grid over the bounds of all positions.
 #[derive(Clone, Copy, Debug)]
@@ -13,6 +15,8 @@ pub(super) struct Grid {
     origin: Vec3,
     /// Side of a cube, metres.
     step: f64,
+    /// Cubes a metre.
+    steps: f64,
     /// The number of the last grid point.
     last: u32,
     bits: u32,
@@ -31,7 +35,7 @@ impl Grid {
         } else {
             exact
         };
-        Grid { origin: min, step, last, bits }
+        Grid { origin: min, step, steps: 1.0 / step, last, bits }
     }
 
     /// Whether positions are stored as integers.
@@ -56,9 +60,10 @@ impl Grid {
     /// The nearest grid point.
     #[inline]
     pub(super) fn place(self, point: Vec3) -> [u32; 3] {
-        let steps = (DVec3::from(point) - DVec3::from(self.origin)) / self.step;
-        // Casts round down and hold at the ends.
-        steps.to_array().map(|steps| ((steps + 0.5) as u32).min(self.last))
+        let steps = (DVec3::from(point) - DVec3::from(self.origin)) * self.steps;
+        // Added to 2^52, a number is rounded and is its own lowest bits.
+        let nearest = |steps: f64| (steps.clamp(0.0, f64::from(self.last)) + INTEGERS).to_bits() as u32;
+        steps.to_array().map(nearest)
     }
 
     /// The nearest grid point as it is stored: fits 16 bits while [`Grid::is_stored`].

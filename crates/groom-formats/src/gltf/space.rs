@@ -39,13 +39,30 @@ impl Space {
     /// Exact bounds of the drawable points, y-up and in metres. Turning and scaling by a positive number keep
     /// the order of numbers, rounding included, so the bounds can be taken first.
     pub(super) fn bounds(self, drawable: Drawable<'_>) -> [Vec3; 2] {
-        let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+        // Four points side by side, so that processors compare several numbers at once.
+        let (mut min, mut max) = ([Vec3::INFINITY; 4], [Vec3::NEG_INFINITY; 4]);
         for run in runs(drawable) {
-            for &point in drawable.groom.positions().get(run.vertices).unwrap_or_default() {
-                (min, max) = (min.min(point), max.max(point));
+            let points = drawable.groom.positions().get(run.vertices).unwrap_or_default();
+            let (fours, rest) = points.as_chunks::<4>();
+            for four in fours {
+                stretch(&mut min, &mut max, four);
+            }
+            for &point in rest {
+                stretch(&mut min, &mut max, &[point; 4]);
             }
         }
-        let (a, b) = (self.vector(min), self.vector(max));
+        let [min, max] = [min.into_iter().reduce(Vec3::min), max.into_iter().reduce(Vec3::max)];
+        let (a, b) = (self.vector(min.unwrap_or_default()), self.vector(max.unwrap_or_default()));
         [a.min(b), a.max(b)]
+    }
+}
+
+#[inline]
+fn stretch(min: &mut [Vec3; 4], max: &mut [Vec3; 4], points: &[Vec3; 4]) {
+    let points: &[f32; 12] = bytemuck::cast_ref(points);
+    let (min, max): (&mut [f32; 12], &mut [f32; 12]) = (bytemuck::cast_mut(min), bytemuck::cast_mut(max));
+    for i in 0..12 {
+        min[i] = if points[i] < min[i] { points[i] } else { min[i] };
+        max[i] = if points[i] > max[i] { points[i] } else { max[i] };
     }
 }
