@@ -4,7 +4,7 @@
 //! |---|---|---|---|
 //! | HAIR (cyHair), `.hair` | `hair` | yes | yes |
 //! | [`text`], `.txt` | `text` | yes | yes |
-//! | glTF, `.gltf` and `.glb` | `gltf` | | yes, as lines |
+//! | glTF, `.gltf` and `.glb` | `gltf` | yes, its lines | yes, as lines, tubes or ribbons |
 //! | USD, `.usda` | `usda` | | yes, as linear BasisCurves |
 //!
 //! A reader keeps the file's numbers and says in the groom what they mean; a writer whose format
@@ -52,7 +52,8 @@ mod animation;
     feature = "tfx",
     feature = "monohair",
     feature = "ply",
-    feature = "obj"
+    feature = "obj",
+    feature = "gltf"
 ))]
 mod assemble;
 #[cfg(any(feature = "text", feature = "usda", feature = "usdc", feature = "obj", feature = "pbrt"))]

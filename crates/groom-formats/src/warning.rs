@@ -166,14 +166,6 @@ pub enum Warning {
         /// How many, each time a mesh is shown.
         primitives: usize,
     },
-    /// An attribute of the file has no place in a groom, or two types.
-    #[error("the attribute `{name}` of the {format} file is not read")]
-    AttributeNotRead {
-        /// The format read.
-        format: Format,
-        /// Its name in the file.
-        name: String,
-    },
     /// Only some of the strands have the attribute.
     #[error("only some strands of the {format} file have `{name}`; elsewhere it is 0, or white")]
     AttributePartly {

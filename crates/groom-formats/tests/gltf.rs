@@ -213,7 +213,10 @@ mod reading {
                 Warning::PrimitivesSkipped { format, primitives: 2 },
                 partly("color"),
                 partly("radius"),
-                Warning::AttributeNotRead { format, name: "NORMAL".to_owned() },
+                Warning::AttributeNotRead {
+                    name: "NORMAL".to_owned(),
+                    why: "a groom has no place for its kind of values".to_owned(),
+                },
             ]
         );
         assert!(groom.attribute(names::GROUP).is_none(), "each primitive is a single strand");

@@ -122,8 +122,7 @@ impl Loss {
 
     #[inline]
     fn look(&mut self, values: &[f32; LANES]) {
-        for i in 0..LANES {
-            let value = values[i];
+        for (i, &value) in values.iter().enumerate() {
             self.least[i] = if value < self.least[i] { value } else { self.least[i] };
             self.most[i] = if value > self.most[i] { value } else { self.most[i] };
             let exact = value.clamp(0.0, 1.0) * 255.0;

@@ -61,7 +61,9 @@ pub(super) fn attributes(
         attributes.push((name, in_domain(values, domain, &found.offsets)));
     }
     unread.sort();
-    warnings.extend(unread.into_iter().map(|name| Warning::AttributeNotRead { format, name }));
+    let why = "a groom has no place for its kind of values";
+    let told = |name| Warning::AttributeNotRead { name, why: why.to_owned() };
+    warnings.extend(unread.into_iter().map(told));
     attributes
 }
 
