@@ -220,3 +220,58 @@ fn dialects_say_what_their_programs_read() {
         points.as_str().unwrap().len() - strands(&plain, "points")["samples"][0][1].as_str().unwrap().len();
     assert_eq!(more, 2 * 30 * 24, "two points a strand");
 }
+
+#[test]
+fn every_kind_of_value_comes_back_from_a_crate() {
+    use usd_layer::write::{Attribute, Content, CrateWriter, PackageWriter, Value as Held};
+    let Some(python) = validators::python() else { return };
+    let folder = tempfile::tempdir().unwrap();
+    let many: Vec<i32> = (0..5000).map(|i| i * i % 977 - 400 + i32::from(i == 7) * i32::MAX / 2).collect();
+    let few: Vec<f32> = (0..5000).map(|i| [0.0, -0.0, 1e-40, f32::INFINITY][i * i % 4]).collect();
+    let values: [(&str, &str, Held<'_>, Value); 13] = [
+        ("a", "bool", Held::Bool(true), json!(true)),
+        ("b", "int", Held::Int(-5), json!(-5)),
+        ("c", "float", Held::Float(0.5), json!(0.5)),
+        ("d", "double", Held::Double(0.1), json!(0.1)),
+        ("e", "token", Held::Token("a word"), json!("a word")),
+        ("f", "string", Held::String("words, words"), json!("words, words")),
+        ("g", "float2", Held::Float2([1.0, 2.0]), json!(hex([&[1.0, 2.0][..]]))),
+        ("h", "int[]", Held::Ints(&many), json!(many.iter().map(|v| format!("{v:08x}")).collect::<String>())),
+        ("i", "float[]", Held::Floats(&few), json!(hex([&few[..]]))),
+        ("j", "texCoord2f[]", Held::Float2s(&[[0.5, 0.25]]), json!(hex([&[0.5, 0.25][..]]))),
+        ("k", "token[]", Held::Tokens(&["x", "y"]), json!(["x", "y"])),
+        ("l", "string[]", Held::Strings(&["x", "words"]), json!(["x", "words"])),
+        ("m", "float[]", Held::Floats(&[]), json!("")),
+    ];
+    let fill = |layer: &mut CrateWriter<std::fs::File>| {
+        // Children before parents, and a property whose name starts as another one's.
+        let child = layer.prim("/Top/Child", "Scope").unwrap();
+        let top = layer.prim("/Top", "Xform").unwrap();
+        layer.prim("/Top2", "").unwrap();
+        for (name, type_name, value, _) in &values {
+            let value = Content::Value(layer.store(*value).unwrap());
+            layer.attribute(child, Attribute::new(&format!("x:{name}"), type_name, value)).unwrap();
+        }
+        layer.attribute(top, Attribute::new("x", "int", Content::Connection("/Top/Child.x:b"))).unwrap();
+        layer.relationship(top, "to", &["/Top2", "/Top/Child.x:a"]).unwrap();
+        layer.metadata("defaultPrim", Held::Token("Top")).unwrap();
+    };
+    let (alone, packed) = (folder.path().join("a.usdc"), folder.path().join("a.usdz"));
+    let mut layer = CrateWriter::new(std::fs::File::create(&alone).unwrap()).unwrap();
+    fill(&mut layer);
+    layer.finish().unwrap();
+    let mut package = PackageWriter::new(std::fs::File::create(&packed).unwrap(), "a.usdc").unwrap();
+    fill(package.layer());
+    package.finish().unwrap();
+    for stage in arrays(&python, &[alone, packed]) {
+        let attributes = &stage["prims"]["/Top/Child"]["attributes"];
+        for (name, type_name, _, expected) in &values {
+            let found = &attributes[format!("x:{name}")];
+            assert_eq!((&found["type"], &found["samples"][0][1]), (&json!(type_name), expected), "{name}");
+        }
+        let top = &stage["prims"]["/Top"];
+        assert_eq!(top["attributes"]["x"]["connections"], json!(["/Top/Child.x:b"]));
+        assert_eq!(top["relationships"]["to"], json!(["/Top2", "/Top/Child.x:a"]));
+        assert_eq!(stage["metadata"]["defaultPrim"], "Top");
+    }
+}

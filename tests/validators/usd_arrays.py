@@ -14,7 +14,7 @@ def plain(value):
     if value is None or isinstance(value, (bool, int, float, str)):
         return value
     array = np.ascontiguousarray(value)
-    if array.dtype.itemsize == 4:
+    if array.dtype.kind in "iuf" and array.dtype.itemsize == 4:
         return array.view(np.uint32).astype(">u4").tobytes().hex()
     return [plain(item) for item in value]
 
