@@ -14,7 +14,9 @@ pub(crate) fn plain<T: Number, const N: usize>(all: &[u8], array: Array) -> Resu
     let len = array.extent.saturating_mul(array.element.size() as u64);
     let stored = Bytes::new(all, array.start).take(len, "an array")?;
     refuse_large(all.len(), array.start, array.extent, size_of::<[T; N]>())?;
-    let mut elements = vec![[T::default(); N]; array.extent as usize];
+    // Zeroes from the system cost nothing until they are written over.
+    let mut elements = bytemuck::allocation::try_zeroed_vec::<[T; N]>(array.extent as usize)
+        .map_err(|()| too_much(array.start, len, "an array"))?;
     if T::SCALAR == array.element.scalar {
         bytemuck::cast_slice_mut(&mut elements).copy_from_slice(stored);
         return Ok(elements);
