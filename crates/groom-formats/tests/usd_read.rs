@@ -62,7 +62,9 @@ fn lines_keep_their_bits_and_attributes_their_places() {
     let velocity = (1..6).map(|x| Vec3::X * x as f32).collect();
     check("velocity", Domain::Vertex, Values::Vec3(velocity));
     assert_eq!((groom.up_axis, groom.meters_per_unit), (UpAxis::Y, 0.01));
-    assert!(matches!(&loaded.warnings[..], [Warning::AttributeNotRead { name, .. }] if name == "primvars:words"));
+    assert!(
+        matches!(&loaded.warnings[..], [Warning::AttributeNotRead { name, .. }] if name == "primvars:words")
+    );
 }
 
 #[test]
@@ -72,7 +74,8 @@ fn primvars_widths_win_and_options_win_over_metadata() {
     let text = text.replacen("#usda 1.0", "#usda 1.0\n(upAxis = \"Z\"\nmetersPerUnit = 2)", 1);
     let groom = read(&text).groom;
     assert_eq!((groom.up_axis, groom.meters_per_unit), (UpAxis::Z, 2.0));
-    let options = ReadOptions { up_axis: Some(UpAxis::Y), meters_per_unit: Some(0.5), ..ReadOptions::default() };
+    let options =
+        ReadOptions { up_axis: Some(UpAxis::Y), meters_per_unit: Some(0.5), ..ReadOptions::default() };
     let groom = read_with(&text, &options).unwrap().groom;
     assert_eq!((groom.up_axis, groom.meters_per_unit), (UpAxis::Y, 0.5));
 }
@@ -80,7 +83,9 @@ fn primvars_widths_win_and_options_win_over_metadata() {
 #[test]
 fn prims_are_moved_and_merged() {
     let line = |points: &str| {
-        format!("uniform token type = \"linear\"\nint[] curveVertexCounts = [2]\npoint3f[] points = {points}\nfloat[] widths = [1] (interpolation = \"constant\")\n")
+        format!(
+            "uniform token type = \"linear\"\nint[] curveVertexCounts = [2]\npoint3f[] points = {points}\nfloat[] widths = [1] (interpolation = \"constant\")\n"
+        )
     };
     let a = line("[(0, 0, 0), (1, 0, 0)]");
     let text = format!(
@@ -110,21 +115,32 @@ fn prims_are_moved_and_merged() {
 #[test]
 fn faults_are_named_with_their_prim() {
     let check = |text: &str, expected: &str| assert!(told(text).contains(expected), "{}", told(text));
-    check(&two_lines("").replace("[2, 3]", "[2, 4]"), "a.usda: /C.curveVertexCounts: found counts that add up to 6, expected 5");
+    check(
+        &two_lines("").replace("[2, 3]", "[2, 4]"),
+        "a.usda: /C.curveVertexCounts: found counts that add up to 6, expected 5",
+    );
     check(&two_lines("").replace("[2, 3]", "[2, -3]"), "-3 points of curve 1");
     check(&two_lines("").replace("linear", "wavy"), "/C.type: found `wavy`, expected linear or cubic");
     check(&two_lines("uniform token wrap = \"on\""), "/C.wrap: found `on`");
-    check(&two_lines("").replace("(1, 2, 0)", "(1, x, 0)"), "/C.points, line 6, column 75: found `x, 0)`, expected a number");
+    check(
+        &two_lines("").replace("(1, 2, 0)", "(1, x, 0)"),
+        "/C.points, line 6, column 69: found `x, 0)`, expected a number",
+    );
     let text = two_lines("uniform token basis = \"hermite\"").replace("linear", "cubic");
     check(&text, "/C.basis: found `hermite`, expected bezier, bspline or catmullRom");
     let indices = "int[] primvars:x:indices = [0, 9]\nint[] primvars:x = [1] (interpolation = \"uniform\")";
     check(&two_lines(indices), "/C.primvars:x:indices: found index 9");
     check("#usda 1.0\ndef Xform \"A\" {}", "found no BasisCurves prim");
-    check("#usda 1.0\ndef Xform \"A\" (references = @b.usda@) {}", "composition is not followed; flatten it: tools/usd/bake.py");
+    check(
+        "#usda 1.0\ndef Xform \"A\" (references = @b.usda@) {}",
+        "composition is not followed; flatten it: tools/usd/bake.py",
+    );
     let also = two_lines("").replacen("\"C\"\n", "\"C\" (prepend payload = @b.usda@)\n", 1);
     assert!(read(&also).warnings.contains(&Warning::CompositionNotFollowed { prims: 1 }));
     let many = two_lines("float[] widths = [1, 2, 3]");
-    assert!(matches!(&read(&many).warnings[..], [Warning::AttributeNotRead { name, .. }, Warning::NoRadius { .. }] if name == "widths"));
+    assert!(
+        matches!(&read(&many).warnings[..], [Warning::AttributeNotRead { name, .. }, Warning::NoRadius { .. }] if name == "widths")
+    );
 }
 
 /// A point on a curve of four points by repeated mixing, which is how these curves are defined.
@@ -172,7 +188,11 @@ fn distance(point: DVec3, line: &[Vec3]) -> f64 {
     let segments = line.windows(2).map(|pair| {
         let (a, b) = (pair[0].as_dvec3(), pair[1].as_dvec3());
         let along = b - a;
-        let t = if along == DVec3::ZERO { 0.0 } else { ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0) };
+        let t = if along == DVec3::ZERO {
+            0.0
+        } else {
+            ((point - a).dot(along) / along.length_squared()).clamp(0.0, 1.0)
+        };
         point.distance(a + along * t)
     });
     segments.fold(f64::INFINITY, f64::min)
@@ -238,7 +258,10 @@ proptest! {
 fn a_finer_error_makes_more_points_and_straight_curves_few() {
     let points = |curve: &str, error| {
         let text = curves(&format!("int[] curveVertexCounts = [4]\npoint3f[] points = [{curve}]"));
-        read_with(&text, &ReadOptions { curve_error: Some(error), ..ReadOptions::default() }).unwrap().groom.point_count()
+        read_with(&text, &ReadOptions { curve_error: Some(error), ..ReadOptions::default() })
+            .unwrap()
+            .groom
+            .point_count()
     };
     assert_eq!(points("(0, 0, 0), (1, 0, 0), (2, 0, 0), (3, 0, 0)", 1e-6), 2);
     let bent = "(0, 0, 0), (1, 3, 0), (2, 3, 0), (3, 0, 0)";
@@ -262,7 +285,10 @@ fn a_periodic_line_ends_where_it_starts() {
     let groom = read(&two_lines("uniform token wrap = \"periodic\"\nfloat[] widths = [1, 2, 3, 4, 5]")).groom;
     assert_eq!(groom.offsets(), [0, 3, 7]);
     assert_eq!(groom.positions()[6], Vec3::X);
-    assert_eq!(groom.attribute("radius").unwrap().values, Values::Float(vec![0.5, 1.0, 0.5, 1.5, 2.0, 2.5, 1.5]));
+    assert_eq!(
+        groom.attribute("radius").unwrap().values,
+        Values::Float(vec![0.5, 1.0, 0.5, 1.5, 2.0, 2.5, 1.5])
+    );
 }
 
 const MOVING: &str = "point3f[] points.timeSamples = {\n1: [(0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (1, 2, 0)],\n\
@@ -276,7 +302,10 @@ fn times_are_read_and_linear_between() {
         assert_eq!((&loaded.times[..], loaded.frame_rate), (&[1.0, 3.0][..], Some(30.0)));
         loaded.groom.positions()[4].z
     };
-    assert_eq!([None, Some(0.0), Some(1.0), Some(1.5), Some(2.0), Some(9.0)].map(z), [0.0, 0.0, 0.0, 0.5, 1.0, 2.0]);
+    assert_eq!(
+        [None, Some(0.0), Some(1.0), Some(1.5), Some(2.0), Some(9.0)].map(z),
+        [0.0, 0.0, 0.0, 0.5, 1.0, 2.0]
+    );
 }
 
 #[test]
@@ -287,7 +316,10 @@ fn frames_come_one_by_one_and_keep_their_strands() {
     std::fs::write(&path, two_lines(MOVING)).unwrap();
     let (loaded, frames) = read_frames(&path, &options).unwrap();
     let frames: Vec<_> = frames.map(Result::unwrap).collect();
-    assert_eq!(frames.iter().map(|frame| (frame.time, frame.positions[0].z)).collect::<Vec<_>>(), [(1.0, 0.0), (3.0, 2.0)]);
+    assert_eq!(
+        frames.iter().map(|frame| (frame.time, frame.positions[0].z)).collect::<Vec<_>>(),
+        [(1.0, 0.0), (3.0, 2.0)]
+    );
     assert_eq!(loaded.groom.positions(), frames[0].positions);
     let counts = "int[] curveVertexCounts.timeSamples = { 1: [2, 3], 3: [3, 2] }";
     std::fs::write(&path, two_lines(&format!("{MOVING}{counts}"))).unwrap();
@@ -302,11 +334,13 @@ fn frames_come_one_by_one_and_keep_their_strands() {
 
 /// A groom of three strands with everything.
 fn groom() -> Groom {
-    let positions: Vec<Vec3> = (0..9).map(|i| Vec3::new(i as f32 * 0.37, (i * i) as f32 / 3.0, -0.1)).collect();
+    let positions: Vec<Vec3> =
+        (0..9).map(|i| Vec3::new(i as f32 * 0.37, (i * i) as f32 / 3.0, -0.1)).collect();
     let mut groom = Groom::new(vec![0, 2, 5, 9], positions).unwrap();
     groom.meters_per_unit = 0.00254;
     groom.up_axis = UpAxis::Z;
-    let mut set = |name: &str, domain, values| groom.set_attribute(name, Attribute { domain, values }).unwrap();
+    let mut set =
+        |name: &str, domain, values| groom.set_attribute(name, Attribute { domain, values }).unwrap();
     set("radius", Domain::Vertex, Values::Float((1..10).map(|i| i as f32 / 7.0).collect()));
     set("color", Domain::Strand, Values::Vec3(vec![Vec3::X, Vec3::Y, Vec3::splat(0.3)]));
     set("id", Domain::Strand, Values::Int(vec![5, -6, 7]));
