@@ -14,7 +14,7 @@ use crate::load::{Input, load_from};
 use crate::motion::{self, Motion};
 use crate::report::{self, Done};
 use crate::store::store;
-use crate::{material, streaming, usd};
+use crate::{material, reduction, streaming, usd};
 
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let start = Instant::now();
@@ -47,10 +47,22 @@ fn convert_still(path: &Path, output: &Path, format: Format, args: &Args) -> Res
     done.tell(&repairs, &warnings, args.json)?;
     let had_ids = groom.attribute(names::ID).is_some();
     let mut edits = Edits::new(args);
-    let groom = edits.apply(groom)?;
+    let mut measured = None;
+    let groom = match &args.measuring.report {
+        None => edits.apply(groom)?,
+        Some(path) => {
+            let full = edits.shape(groom)?;
+            let options = WriteOptions { hair, ..write_options(&full, args)? };
+            measured = Some((path, reduction::measure(&full, args, format, &options)?));
+            edits.reduce(full)?
+        }
+    };
     done.quantize_error = edits.quantize_error;
     let options = WriteOptions { hair, ..write_options(&groom, args)? };
     let (lost, output_bytes) = store(&groom, output, format, &options)?;
+    if let Some((path, measured)) = measured {
+        reduction::store(&measured, path)?;
+    }
     done.finish(
         groom.strand_count() as u64,
         groom.point_count() as u64,

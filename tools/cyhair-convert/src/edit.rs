@@ -41,8 +41,8 @@ impl<'a> Edits<'a> {
         }
     }
 
-    /// Does what the options ask for, in the order of [`ORDER`].
-    pub(crate) fn apply(&mut self, mut groom: Groom) -> Result<Groom> {
+    /// Does what the options ask for, in the order of [`ORDER`], but for the reductions at its end.
+    pub(crate) fn shape(&mut self, mut groom: Groom) -> Result<Groom> {
         let strands = &self.args.strands;
         if let Some(stride) = strands.stride.filter(|&stride| stride > 1) {
             groom = groom.subsample_by_stride(stride as usize)?;
@@ -52,6 +52,12 @@ impl<'a> Edits<'a> {
         groom = self.reshape(groom)?;
         groom = self.guide(groom)?;
         self.dress(&mut groom)?;
+        Ok(groom)
+    }
+
+    /// Leaves out points and rounds them, as the options ask.
+    pub(crate) fn reduce(&mut self, mut groom: Groom) -> Result<Groom> {
+        let strands = &self.args.strands;
         if let Some(tolerance) = strands.tolerance {
             let points = match self.simple_points.take() {
                 Some(points) => points,

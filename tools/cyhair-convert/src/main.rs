@@ -9,6 +9,7 @@ mod info;
 mod load;
 mod material;
 mod motion;
+mod reduction;
 mod report;
 mod sequence;
 mod store;

@@ -3,6 +3,7 @@
 mod look;
 mod material;
 mod reading;
+mod measuring;
 mod strands;
 mod target;
 mod values;
@@ -16,6 +17,7 @@ use groom_formats::Format;
 use look::Look;
 pub(crate) use material::{Material, Source};
 use reading::Reading;
+use measuring::Measuring;
 pub(crate) use strands::Strands;
 pub(crate) use target::is_stream;
 pub(crate) use values::Up;
@@ -53,7 +55,7 @@ pub(crate) struct Args {
     pub(crate) output: Option<PathBuf>,
 
     /// Say what is in the input instead of converting it
-    #[arg(long, conflicts_with_all = ["strands", "look", "to"])]
+    #[arg(long, conflicts_with_all = ["strands", "look", "measuring", "to"])]
     pub(crate) info: bool,
 
     /// List the formats: what is read, what is written, what each holds
@@ -83,6 +85,9 @@ pub(crate) struct Args {
 
     #[command(flatten)]
     pub(crate) writing: Writing,
+
+    #[command(flatten)]
+    pub(crate) measuring: Measuring,
 
     #[command(flatten)]
     pub(crate) material: Material,
