@@ -41,7 +41,13 @@ impl<'a> Edits<'a> {
         }
     }
 
-    /// Does what the options ask for, in the order of [`ORDER`], but for the reductions at its end.
+    /// Does what the options ask for, in the order of [`ORDER`].
+    pub(crate) fn apply(&mut self, groom: Groom) -> Result<Groom> {
+        let full = self.shape(groom)?;
+        self.reduce(full)
+    }
+
+    /// As [`Edits::apply`], but for the reductions at its end.
     pub(crate) fn shape(&mut self, mut groom: Groom) -> Result<Groom> {
         let strands = &self.args.strands;
         if let Some(stride) = strands.stride.filter(|&stride| stride > 1) {
