@@ -14,7 +14,10 @@ use crate::store::{clear, size};
 pub(crate) fn convert(input: &Path, output: &Path, format: Format, args: &Args) -> Result<Option<Done>> {
     let by_ending = |path, format| !is_stream(path) && Format::from_path(path) == Some(format);
     let asked = args.input_format()?;
-    if !by_ending(input, asked) || !by_ending(output, format) || args.edits() || args.measuring.report.is_some()
+    if !by_ending(input, asked)
+        || !by_ending(output, format)
+        || args.edits()
+        || args.measuring.report.is_some()
     {
         return Ok(None);
     }

@@ -2,8 +2,8 @@
 
 mod look;
 mod material;
-mod reading;
 mod measuring;
+mod reading;
 mod strands;
 mod target;
 mod values;
@@ -16,8 +16,8 @@ use groom_formats::Format;
 
 use look::Look;
 pub(crate) use material::{Material, Source};
-use reading::Reading;
 use measuring::Measuring;
+use reading::Reading;
 pub(crate) use strands::Strands;
 pub(crate) use target::is_stream;
 pub(crate) use values::Up;
