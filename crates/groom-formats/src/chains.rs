@@ -50,13 +50,10 @@ impl Chains {
         self.indices.len()
     }
 
-    /// Refuses strands that use the file's vertices over and over: an attribute of a few bytes in the file would
-    /// take any amount of memory.
-    ///
-    /// Twice a vertex on average is right for lines that each name both of their ends, and small files may do
-    /// as they like.
-    pub(crate) fn refuse_overuse(&self, vertices: usize, file: &str) -> Result<(), FormatError> {
-        let most = 2 * vertices + FREE;
+    /// Refuses strands of more than `most` points in all: when they use the file's vertices over and over, a few
+    /// bytes of it would take any amount of memory. Small files may do as they like.
+    pub(crate) fn refuse_overuse(&self, most: usize, vertices: usize, file: &str) -> Result<(), FormatError> {
+        let most = most + FREE;
         if self.len() <= most {
             return Ok(());
         }

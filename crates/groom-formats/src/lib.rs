@@ -4,8 +4,16 @@
 //! |---|---|---|---|
 //! | HAIR (cyHair), `.hair` | `hair` | yes | yes |
 //! | [`text`], `.txt` | `text` | yes | yes |
+//! | USD, `.usda`, `.usdc`, `.usdz` | `usda`, `usdc`, `usdz` | yes, BasisCurves | yes, as BasisCurves |
+//! | Alembic, `.abc` | `alembic` | yes, Curves | yes, in Unreal's groom schema |
 //! | glTF, `.gltf` and `.glb` | `gltf` | yes, its lines | yes, as lines, tubes or ribbons |
-//! | USD, `.usda` | `usda` | | yes, as linear BasisCurves |
+//! | PLY strands, `.ply` | `ply` | yes | yes, as hairutil's |
+//! | USC hair, `.data` | `data` | yes | yes |
+//! | Wavefront lines, `.obj` | `obj` | yes | yes |
+//! | pbrt curves, `.pbrt` | `pbrt` | | yes |
+//! | TressFX 3 and 4, `.tfx` | `tfx` | yes | |
+//! | MonoHair, `.hair` without HAIR's magic | `monohair` | yes | |
+//! | CT2Hair, `.bin` | `ct2hair` | yes | |
 //!
 //! A reader keeps the file's numbers and says in the groom what they mean; a writer whose format
 //! fixes an axis or a unit converts them. What a format cannot hold comes back as a [`Warning`].

@@ -29,6 +29,8 @@ pub(crate) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Lo
 struct Parser<'a> {
     file: &'a str,
     line: u64,
+    /// Bytes of the file.
+    bytes: usize,
     /// Vertices in the whole file: a line may name one that comes later.
     vertices: usize,
     positions: Vec<Vec3>,
@@ -56,6 +58,7 @@ impl<'a> Parser<'a> {
         Parser {
             file,
             line: 0,
+            bytes: bytes.len(),
             vertices,
             positions: Vec::with_capacity(vertices),
             colors: Vec::new(),
@@ -186,7 +189,10 @@ impl<'a> Parser<'a> {
             let expected = "at least one `l`, a strand";
             return Err(FormatError::invalid(self.file, "the whole file", found, expected));
         }
-        self.chains.refuse_overuse(self.vertices, self.file)?;
+        // Three times the file, less the vertices, for points, their indices and where strands start.
+        let each = if self.colors.is_empty() { 12 } else { 24 };
+        let most = (3 * self.bytes).saturating_sub(each * self.vertices) / (each + 8);
+        self.chains.refuse_overuse(most.max(self.vertices), self.vertices, self.file)?;
         assemble::offset(self.chains.len(), format, self.file)?;
         if !self.colors.is_empty() {
             self.colors.resize(self.vertices, Vec3::ONE);

@@ -208,7 +208,8 @@ fn joined(file: &str, vertices: usize, mut edges: Columns) -> Result<Layout, For
         }
         chains.segment(from as u32, to as u32);
     }
-    chains.refuse_overuse(vertices, file)?;
+    // Edges that each name both of their ends use a vertex twice.
+    chains.refuse_overuse(2 * vertices, vertices, file)?;
     assemble::offset(chains.len(), Format::Ply, file)?;
     let (offsets, indices) = chains.into_offsets();
     let indices = (!chains::in_order(&indices, vertices)).then_some(indices);

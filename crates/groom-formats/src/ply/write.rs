@@ -36,7 +36,7 @@ pub(crate) fn write(
         writer.push_with(groom.strand(strand), |index, record| {
             let vertex = start + index;
             if plan.radius {
-                record.extend_from_slice(&(2.0 * radii.get(strand, vertex)).to_le_bytes());
+                record.extend_from_slice(&(2.0 * radii.get(strand, vertex)).min(f32::MAX).to_le_bytes());
             }
             if let Some(colors) = colors {
                 record.extend(colors.get(strand, vertex).to_array().map(byte));
