@@ -16,7 +16,7 @@ use groom_formats::{
 use proptest::prelude::*;
 
 /// Every format that takes strands in pieces.
-const TARGETS: [&str; 3] = ["hair", "txt", "data"];
+const TARGETS: [&str; 4] = ["hair", "txt", "data", "ply"];
 
 fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")

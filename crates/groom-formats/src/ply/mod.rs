@@ -37,5 +37,6 @@ mod read;
 pub(crate) mod stream;
 mod write;
 
+pub(crate) use names::colors_are_bytes;
 pub(crate) use read::read;
-pub(crate) use write::write;
+pub(crate) use write::{PlySink, write};

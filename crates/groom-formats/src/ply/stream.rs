@@ -5,7 +5,6 @@ use std::io::Write;
 use glam::Vec3;
 use groom::UpAxis;
 
-use super::names::byte;
 use crate::bytes::write_points;
 use crate::{Format, FormatError};
 
@@ -28,30 +27,6 @@ pub(crate) struct Layout {
 }
 
 impl Layout {
-    /// For strands with a radius at every point and perhaps a colour, 8 bits and exact, and a transparency: what
-    /// [`PlyWriter::push`] is given.
-    #[allow(dead_code)] // pairs of formats that stream
-    pub(crate) fn plain(
-        strands: u64,
-        points: u64,
-        up_axis: UpAxis,
-        colors: bool,
-        transparency: bool,
-    ) -> Self {
-        let named =
-            |kind, names: &[&str]| names.iter().map(|name| (kind, (*name).to_owned())).collect::<Vec<_>>();
-        let mut vertex = named("float", &["thickness"]);
-        if colors {
-            vertex.extend(named("uchar", &["red", "green", "blue"]));
-            vertex.extend(named("float", &["color_x", "color_y", "color_z"]));
-        }
-        if transparency {
-            vertex.extend(named("float", &["transparency"]));
-        }
-        let (strand, whole) = (Vec::new(), Vec::new());
-        Layout { strands, points, up_axis, meters_per_unit: 1.0, vertex, strand, whole }
-    }
-
     fn header(&self) -> String {
         let axis = match self.up_axis {
             UpAxis::Y => "y",
@@ -95,27 +70,6 @@ impl<'a, W: Write> PlyWriter<'a, W> {
     pub(crate) fn begin(stream: &'a mut W, file: &'a str, layout: Layout) -> Result<Self, FormatError> {
         stream.write_all(layout.header().as_bytes()).map_err(|e| FormatError::io(file, e))?;
         Ok(PlyWriter { stream, file, layout, points: 0, segments: Vec::new(), record: Vec::new() })
-    }
-
-    /// The next strand of a [plain](Layout::plain) file: as many values as points wherever the layout has them.
-    #[allow(dead_code)] // pairs of formats that stream
-    pub(crate) fn push(
-        &mut self,
-        points: &[Vec3],
-        radii: &[f32],
-        colors: Option<&[Vec3]>,
-        transparencies: Option<&[f32]>,
-    ) -> Result<(), FormatError> {
-        self.push_with(points, |index, record| {
-            record.extend((2.0 * radii.get(index).copied().unwrap_or_default()).to_le_bytes());
-            if let Some(color) = colors.and_then(|colors| colors.get(index)) {
-                record.extend(color.to_array().map(byte));
-                color.to_array().iter().for_each(|value| record.extend(value.to_le_bytes()));
-            }
-            if let Some(value) = transparencies.and_then(|values| values.get(index)) {
-                record.extend(value.to_le_bytes());
-            }
-        })
     }
 
     /// The next strand; `rest` appends what the layout has behind the position of a point, little endian.

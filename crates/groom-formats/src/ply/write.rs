@@ -18,36 +18,79 @@ pub(crate) fn write(
     if groom.strand_count() == 0 {
         return Err(FormatError::Empty { file: name.to_owned(), format: Format::Ply, points: 1 });
     }
-    let mut warnings = Vec::new();
-    let mut plan = Plan::new(groom, &mut warnings);
-    let layout = Layout {
-        strands: groom.strand_count() as u64,
-        points: groom.point_count() as u64,
-        up_axis: groom.up_axis,
-        meters_per_unit: groom.meters_per_unit,
-        vertex: std::mem::take(&mut plan.vertex.properties),
-        strand: std::mem::take(&mut plan.strand.properties),
-        whole: std::mem::take(&mut plan.whole.properties),
-    };
-    let mut writer = PlyWriter::begin(stream, name, layout)?;
-    let (radii, colors) = (groom.radii(), groom.colors());
-    for strand in 0..groom.strand_count() {
-        let start = groom.strand_range(strand).start;
-        writer.push_with(groom.strand(strand), |index, record| {
-            let vertex = start + index;
-            if plan.radius {
-                record.extend_from_slice(&(2.0 * radii.get(strand, vertex)).min(f32::MAX).to_le_bytes());
-            }
-            if let Some(colors) = colors {
-                record.extend(colors.get(strand, vertex).to_array().map(byte));
-            }
-            plan.vertex.push(vertex, record);
-        })?;
+    let (strands, points) = (groom.strand_count() as u64, groom.point_count() as u64);
+    let mut sink = PlySink::begin(stream, name, (strands, points), groom, colors_are_bytes(groom))?;
+    sink.push(groom)?;
+    let rows = Plan::new(groom, sink.colors_are_whole, &mut Vec::new()).strand;
+    sink.finish_with(|strand, record| rows.push(strand, record))
+}
+
+/// A file written from blocks of strands that have the same attributes on the same domains.
+pub(crate) struct PlySink<'a, W: Write> {
+    writer: PlyWriter<'a, W>,
+    colors_are_whole: bool,
+    /// The row of the whole groom.
+    whole: Vec<u8>,
+    warnings: Vec<Warning>,
+}
+
+impl<'a, W: Write> PlySink<'a, W> {
+    /// Starts a file of `counts` strands and points; `like` has the attributes of all blocks, and
+    /// `colors_are_whole` says whether 8 bits hold every colour of every block.
+    pub(crate) fn begin(
+        stream: &'a mut W,
+        name: &'a str,
+        counts: (u64, u64),
+        like: &Groom,
+        colors_are_whole: bool,
+    ) -> Result<Self, FormatError> {
+        let mut warnings = Vec::new();
+        let plan = Plan::new(like, colors_are_whole, &mut warnings);
+        let mut whole = Vec::new();
+        if !plan.whole.values.is_empty() {
+            plan.whole.push(0, &mut whole);
+        }
+        let layout = Layout {
+            strands: counts.0,
+            points: counts.1,
+            up_axis: like.up_axis,
+            meters_per_unit: like.meters_per_unit,
+            vertex: plan.vertex.properties,
+            strand: plan.strand.properties,
+            whole: plan.whole.properties,
+        };
+        let writer = PlyWriter::begin(stream, name, layout)?;
+        Ok(PlySink { writer, colors_are_whole, whole, warnings })
     }
-    let mut whole = Vec::new();
-    plan.whole.push(0, &mut whole);
-    writer.finish_with(|strand, record| plan.strand.push(strand, record), &whole)?;
-    Ok(warnings)
+
+    /// Writes the vertices of some strands.
+    pub(crate) fn push(&mut self, block: &Groom) -> Result<(), FormatError> {
+        let plan = Plan::new(block, self.colors_are_whole, &mut Vec::new());
+        let (radii, colors) = (block.radii(), block.colors());
+        for strand in 0..block.strand_count() {
+            let start = block.strand_range(strand).start;
+            self.writer.push_with(block.strand(strand), |index, record| {
+                let vertex = start + index;
+                if plan.radius {
+                    record.extend_from_slice(&(2.0 * radii.get(strand, vertex)).min(f32::MAX).to_le_bytes());
+                }
+                if let Some(colors) = colors {
+                    record.extend(colors.get(strand, vertex).to_array().map(byte));
+                }
+                plan.vertex.push(vertex, record);
+            })?;
+        }
+        Ok(())
+    }
+
+    /// Writes the strands, whose rows `strand` appends, and the whole groom; tells what was renamed.
+    pub(crate) fn finish_with(
+        self,
+        strand: impl FnMut(usize, &mut Vec<u8>),
+    ) -> Result<Vec<Warning>, FormatError> {
+        self.writer.finish_with(strand, &self.whole)?;
+        Ok(self.warnings)
+    }
 }
 
 /// Which attributes become which properties.
@@ -67,7 +110,7 @@ struct Rows<'a> {
 }
 
 impl<'a> Plan<'a> {
-    fn new(groom: &'a Groom, warnings: &mut Vec<Warning>) -> Self {
+    fn new(groom: &'a Groom, colors_are_whole: bool, warnings: &mut Vec<Warning>) -> Self {
         let radius = groom.attribute(names::RADIUS);
         let mut plan = Plan {
             radius: radius.is_some(),
@@ -82,7 +125,6 @@ impl<'a> Plan<'a> {
         if groom.colors().is_some() {
             first.extend(["red", "green", "blue"].map(|name| ("uchar", name.to_owned())));
         }
-        let colors_are_whole = colors_are_bytes(groom);
         let mut used = BTreeSet::new();
         for (name, attribute) in groom.attributes() {
             let at_vertices = attribute.domain == Domain::Vertex;

@@ -50,7 +50,8 @@ pub fn convert_streaming(
 ///
 /// `edit` gets some strands as a groom, and the index of the first of them in the whole file. What it gives
 /// back must have as many strands, as many points in each, and for every block the same attributes on the same
-/// domains. It runs once a block of about 32,000 points.
+/// domains. It runs once a block of about 32,000 points, and for PLY with a colour array once more before: the
+/// head of that file says whether 8 bits hold the colours.
 ///
 /// # Errors
 /// [`FormatError`], and what `edit` returns.
@@ -59,7 +60,7 @@ pub fn convert_streaming_with<E: From<FormatError>>(
     output: &Path,
     read: &ReadOptions,
     write: &WriteOptions,
-    edit: impl FnMut(Groom, u64) -> Result<Groom, E>,
+    mut edit: impl FnMut(Groom, u64) -> Result<Groom, E>,
 ) -> Result<Option<Streamed>, E> {
     let (Some(Format::Hair), Some(format)) = (Format::from_path(input), Format::from_path(output)) else {
         return Ok(None);
@@ -77,6 +78,17 @@ pub fn convert_streaming_with<E: From<FormatError>>(
         return Ok(None);
     }
     let output_name = output.display().to_string();
+    let mut colors_are_bytes = true;
+    if sink::asks_about_colors(format) && header.has(cyhair::Field::Colors) {
+        let Some(file) = open_hair(input, &name)? else { return Ok(None) };
+        let blocks = Blocks::new(file, &name, read)?;
+        let mut source = Edited { blocks, edit: &mut edit, output: &output_name, strands: 0, points: 0 };
+        while let Some(block) = source.next()?.filter(|_| colors_are_bytes) {
+            colors_are_bytes = sink::colors_are_bytes(&block);
+        }
+    } else {
+        colors_are_bytes = false;
+    }
     let mut source = Edited { blocks, edit, output: &output_name, strands: 0, points: 0 };
     // There is one: HAIR files without strands are refused.
     let Some(mut block) = source.next()? else { return Ok(None) };
@@ -84,7 +96,7 @@ pub fn convert_streaming_with<E: From<FormatError>>(
     let mut file = Output::create(output)?;
     let mut stream = BufWriter::with_capacity(BUFFER, &mut file);
     let counts = Counts { strands: header.hair_count, points: header.point_count };
-    let mut sink = sink::begin(format, &mut stream, &output_name, counts, &extras, &block)?;
+    let mut sink = sink::begin(format, &mut stream, &output_name, counts, &extras, &block, colors_are_bytes)?;
     loop {
         sink.push(&block)?;
         let Some(next) = source.next()? else { break };

@@ -31,11 +31,28 @@ pub(crate) fn takes_pieces(format: Format, can_seek: bool) -> bool {
         Format::Hair => can_seek,
         Format::Text => cfg!(feature = "text"),
         Format::Data => cfg!(feature = "data"),
+        Format::Ply => cfg!(feature = "ply"),
         _ => false,
     }
 }
 
-/// Begins a file of a format that [`takes_pieces`]; `like` has the attributes of all blocks.
+/// Whether the head of a file says if 8 bits hold every colour, so that all must be seen before the first
+/// strand is written.
+pub(crate) fn asks_about_colors(format: Format) -> bool {
+    format == Format::Ply
+}
+
+/// Whether 8 bits hold every colour of a block.
+#[cfg_attr(not(feature = "ply"), allow(unused_variables))]
+pub(crate) fn colors_are_bytes(block: &Groom) -> bool {
+    #[cfg(feature = "ply")]
+    return crate::ply::colors_are_bytes(block);
+    #[cfg(not(feature = "ply"))]
+    true
+}
+
+/// Begins a file of a format that [`takes_pieces`]; `like` has the attributes of all blocks, and
+/// `colors_are_bytes` says of them all what [`asks_about_colors`] asks.
 pub(crate) fn begin<'a, W: Write + Seek>(
     format: Format,
     stream: &'a mut W,
@@ -43,6 +60,7 @@ pub(crate) fn begin<'a, W: Write + Seek>(
     counts: Counts,
     extras: &HairExtras,
     like: &Groom,
+    colors_are_bytes: bool,
 ) -> Result<Box<dyn Sink + 'a>, FormatError> {
     Ok(match format {
         Format::Hair => Box::new(HairSink::begin(stream, name, counts, extras, like)?),
@@ -53,6 +71,11 @@ pub(crate) fn begin<'a, W: Write + Seek>(
             writer: DataWriter::begin(stream, name, counts.strands.into())?,
             warnings: data::warnings(like),
         }),
+        #[cfg(feature = "ply")]
+        Format::Ply => {
+            let counts = (counts.strands.into(), counts.points.into());
+            Box::new(crate::ply::PlySink::begin(stream, name, counts, like, colors_are_bytes)?)
+        }
         _ => {
             let what = "cannot be written strand by strand";
             return Err(FormatError::Unsupported { file: name.to_owned(), format, what });
@@ -97,5 +120,17 @@ impl<W: Write> Sink for DataSink<'_, W> {
     fn finish(self: Box<Self>) -> Result<Vec<Warning>, FormatError> {
         self.writer.finish()?;
         Ok(self.warnings)
+    }
+}
+
+#[cfg(feature = "ply")]
+impl<W: Write> Sink for crate::ply::PlySink<'_, W> {
+    fn push(&mut self, block: &Groom) -> Result<(), FormatError> {
+        crate::ply::PlySink::push(self, block)
+    }
+
+    fn finish(self: Box<Self>) -> Result<Vec<Warning>, FormatError> {
+        // A HAIR file has nothing a strand.
+        self.finish_with(|_, _| {})
     }
 }
