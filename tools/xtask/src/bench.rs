@@ -5,9 +5,13 @@ use anyhow::Result;
 use crate::shell::{cargo, step};
 
 /// Every bench program of the workspace, low to high.
-const BENCHES: [(&str, &str); 5] = [
+const BENCHES: [(&str, &str); 9] = [
     ("cyhair", "read"),
+    ("usd-layer", "read"),
     ("groom-formats", "convert"),
+    ("groom-formats", "usd"),
+    ("groom-formats", "alembic"),
+    ("groom-formats", "gltf"),
     ("fibre-scattering", "scattering"),
     ("strand-tracing", "rays"),
     ("hair-render-cli", "straight_hair"),
