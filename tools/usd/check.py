@@ -9,9 +9,16 @@ import dataclasses
 import json
 import sys
 
-from pxr import Tf, Usd, UsdValidation
+from whole_file import missing_usd_core
 
-from curve_rules import Finding, check_stage
+try:
+    from pxr import Tf, Usd, UsdValidation
+
+    from curve_rules import Finding, check_stage
+except ImportError:
+    if __name__ == "__main__":
+        sys.exit(missing_usd_core())
+    raise
 
 SEVERITIES = {
     UsdValidation.ValidationErrorType.Error: "error",

@@ -3,8 +3,8 @@
 //! Every span is brought into Bezier form, and cut into as many equal parts as keep the polyline within the error
 //! asked for: the distance of a curve from the chord of a part is at most an eighth of its second derivative
 //! times the square of the part, and that derivative is at most six times the larger second difference of the
-//! four Bezier points. A thousandth of the curve's length is the error where none is asked for; a span has 256
-//! parts at most.
+//! four Bezier points. A span has 256 parts at most. Where no error is asked for it is a thousandth of the
+//! curve's length, or as much more as keeps the polylines within four times the control points.
 
 use glam::DVec3;
 
@@ -14,7 +14,7 @@ use crate::polylines::{Shape, Wrap};
 const MOST_PARTS: u16 = 256;
 
 /// The error where none is asked for, in lengths of the curve.
-const RELATIVE_ERROR: f64 = 1e-3;
+pub(crate) const RELATIVE_ERROR: f64 = 1e-3;
 
 /// How four points make a curve.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -112,18 +112,28 @@ fn evaluate(bezier: &[DVec3; 4], t: f64) -> DVec3 {
         + bezier[3] * (t * t * t)
 }
 
+/// How far a polyline may be from its curve.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Tolerance {
+    /// In units of the file.
+    Absolute(f64),
+    /// In lengths of the curve.
+    Relative(f64),
+}
+
 /// Adds to `parts` how many every span of a curve is cut into.
 pub(crate) fn cut<P: Point>(
     points: &[P],
     basis: Basis,
     shape: Shape,
-    error: Option<f32>,
+    tolerance: Tolerance,
     parts: &mut Vec<u16>,
 ) {
     let spans = shape.spans(points.len() as u32).unwrap_or_default() as usize;
     let spans = (0..spans).map(|index| span(points, basis, shape.wrap, index));
-    let error = error.map_or_else(
-        || {
+    let error = match tolerance {
+        Tolerance::Absolute(error) => error,
+        Tolerance::Relative(lengths) => {
             // Halves of spans, so that a loop has a length too.
             let length: f64 = spans
                 .clone()
@@ -132,15 +142,14 @@ pub(crate) fn cut<P: Point>(
                     bezier[0].distance(middle) + middle.distance(bezier[3])
                 })
                 .sum();
-            RELATIVE_ERROR * length
-        },
-        f64::from,
-    );
+            lengths * length
+        }
+    };
     parts.extend(spans.map(|b| {
         let bend = (b[0] - 2.0 * b[1] + b[2]).length().max((b[1] - 2.0 * b[2] + b[3]).length());
         let wanted = (0.75 * bend / error).sqrt().ceil();
-        // Not a number where nothing bends and no error is allowed.
-        if wanted.is_finite() || bend > 0.0 { wanted.clamp(1.0, MOST_PARTS.into()) as u16 } else { 1 }
+        // Not a number where nothing bends and no error is allowed, or where points are infinitely far away.
+        if wanted.is_nan() { 1 } else { wanted.clamp(1.0, MOST_PARTS.into()) as u16 }
     }));
 }
 

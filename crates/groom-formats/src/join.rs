@@ -14,12 +14,17 @@ pub(crate) struct Part {
     pub(crate) attributes: BTreeMap<String, Attribute>,
 }
 
-/// The groom of all parts; where there are several and none says its groups, each is one.
+/// Takes room for an attribute: its name, how many values it has, and their size; an error if there is not enough.
+pub(crate) type Take<'a> = &'a dyn Fn(&str, usize, usize) -> Result<(), FormatError>;
+
+/// The groom of all parts; where there are several and none says its groups, each is one. Attributes may get more
+/// values than the parts have, which `take` is asked for.
 pub(crate) fn groom(
     mut parts: Vec<Part>,
     positions: Vec<Vec3>,
     format: Format,
     file: &str,
+    take: Take<'_>,
     warnings: &mut Vec<Warning>,
 ) -> Result<Groom, FormatError> {
     let mut offsets = vec![0_u32];
@@ -45,7 +50,7 @@ pub(crate) fn groom(
     all.sort();
     all.dedup();
     for name in all {
-        let fault = match joined(&mut parts, &name) {
+        let fault = match joined(&mut parts, &name, take)? {
             Some(attribute) => groom.set_attribute(&*name, attribute).err().map(|error| error.to_string()),
             None => Some("its type differs from object to object".into()),
         };
@@ -58,18 +63,20 @@ pub(crate) fn groom(
 
 /// The attribute of all parts, in the narrowest domain that serves them; parts without it have nothing (the usual
 /// radius, white). `None` if their types differ.
-fn joined(parts: &mut [Part], name: &str) -> Option<Attribute> {
+fn joined(parts: &mut [Part], name: &str, take: Take<'_>) -> Result<Option<Attribute>, FormatError> {
     if let [part] = parts {
-        return part.attributes.remove(name);
+        return Ok(part.attributes.remove(name));
     }
     let taken: Vec<Option<Attribute>> = parts.iter_mut().map(|part| part.attributes.remove(name)).collect();
-    let first = taken.iter().flatten().next()?;
+    let Some(first) = taken.iter().flatten().next() else { return Ok(None) };
     let same = taken.iter().all(|attribute| attribute.as_ref() == Some(first));
     if same && first.domain == Domain::Groom {
-        return Some(first.clone());
+        return Ok(Some(first.clone()));
     }
     let vertex = taken.iter().flatten().any(|attribute| attribute.domain == Domain::Vertex);
     let domain = if vertex { Domain::Vertex } else { Domain::Strand };
+    let members = |part: &Part| if vertex { part.points } else { part.strand_lens.len() };
+    take(name, parts.iter().map(members).sum(), value_size(&first.values))?;
     let mut values = match first.values {
         Values::Float(_) => Values::Float(Vec::new()),
         Values::Vec2(_) => Values::Vec2(Vec::new()),
@@ -92,10 +99,19 @@ fn joined(parts: &mut [Part], name: &str) -> Option<Attribute> {
             (Values::Vec2(to), Values::Vec2(from)) => extend(to, from, attribute.domain, domain, part),
             (Values::Vec3(to), Values::Vec3(from)) => extend(to, from, attribute.domain, domain, part),
             (Values::Int(to), Values::Int(from)) => extend(to, from, attribute.domain, domain, part),
-            _ => return None,
+            _ => return Ok(None),
         }
     }
-    Some(Attribute { domain, values })
+    Ok(Some(Attribute { domain, values }))
+}
+
+/// Bytes of one value.
+pub(crate) fn value_size(values: &Values) -> usize {
+    match values {
+        Values::Float(_) | Values::Int(_) => size_of::<f32>(),
+        Values::Vec2(_) => size_of::<Vec2>(),
+        Values::Vec3(_) => size_of::<Vec3>(),
+    }
 }
 
 /// Adds a part's values, repeated where the domain is wider than theirs.

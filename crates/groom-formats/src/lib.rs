@@ -107,6 +107,8 @@ mod ply;
 #[cfg(any(feature = "alembic", feature = "usda", feature = "usdc", feature = "usdz"))]
 mod polylines;
 mod read;
+#[cfg(any(feature = "usda", feature = "usdc", feature = "usdz"))]
+mod room;
 #[cfg(feature = "hair")]
 mod stream;
 #[cfg(feature = "text")]

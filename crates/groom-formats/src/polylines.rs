@@ -1,7 +1,16 @@
 //! Curves of a file as the polylines a groom is made of: which points make which strand, and where on a curve
 //! the points of a strand lie.
 
-use crate::cubic::{self, Basis, Point};
+use crate::cubic::{self, Basis, Point, RELATIVE_ERROR, Tolerance};
+
+/// Points of polylines a control point, at most, unless an error is asked for.
+const MOST_GROWTH: u64 = 4;
+
+/// Points that are always within the bound: a megabyte of positions and radii.
+const FREE_POINTS: u64 = 1 << 16;
+
+/// How often the error is doubled before every span becomes one line.
+const MOST_DOUBLINGS: i32 = 40;
 
 /// How a curve goes on beyond its ends.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -82,18 +91,48 @@ pub(crate) struct Polylines {
     pub(crate) counts: Vec<u32>,
     /// One number a span of a cubic curve, curves one after another.
     parts: Vec<u16>,
+    /// The error in lengths of a curve, where it had to be more than is usual.
+    pub(crate) coarser: Option<f64>,
 }
 
 impl Polylines {
     /// Cuts curves; every count fits the shape and together they are the points.
+    ///
+    /// An error that is asked for is kept. The usual one is doubled until the polylines are not too many times
+    /// longer than the control points.
     pub(crate) fn cut<P: Point>(shape: Shape, counts: Vec<u32>, points: &[P], error: Option<f32>) -> Self {
-        let mut parts = Vec::new();
-        if let Some(basis) = shape.basis {
-            for curve in each(points, &counts) {
-                cubic::cut(curve, basis, shape, error, &mut parts);
+        let mut polylines = Polylines { shape, counts, parts: Vec::new(), coarser: None };
+        if let Some(error) = error {
+            polylines.cut_within(points, Tolerance::Absolute(error.into()));
+            return polylines;
+        }
+        let most = (points.len() as u64).saturating_mul(MOST_GROWTH).max(FREE_POINTS);
+        let errors = (0..=MOST_DOUBLINGS).map(|doublings| RELATIVE_ERROR * 2.0_f64.powi(doublings));
+        for error in errors.chain([f64::INFINITY]) {
+            polylines.cut_within(points, Tolerance::Relative(error));
+            polylines.coarser = (error > RELATIVE_ERROR).then_some(error);
+            if polylines.points() <= most {
+                break;
             }
         }
-        Polylines { shape, counts, parts }
+        polylines
+    }
+
+    fn cut_within<P: Point>(&mut self, points: &[P], tolerance: Tolerance) {
+        self.parts.clear();
+        let Some(basis) = self.shape.basis else { return };
+        for curve in each(points, &self.counts) {
+            cubic::cut(curve, basis, self.shape, tolerance, &mut self.parts);
+        }
+    }
+
+    /// Points of all strands.
+    pub(crate) fn points(&self) -> u64 {
+        let strands = self.counts.iter().filter(|&&count| count > 0).count() as u64;
+        match self.shape.basis {
+            Some(_) => self.parts.iter().map(|&part| u64::from(part)).sum::<u64>() + strands,
+            None => self.strand_lens().map(u64::from).sum(),
+        }
     }
 
     /// Points of every strand; curves without a point are no strands.
@@ -102,7 +141,10 @@ impl Polylines {
         self.counts.iter().filter(|&&count| count > 0).map(move |&count| {
             let spans = self.shape.spans(count).unwrap_or_default();
             match self.shape.basis {
-                Some(_) => parts.by_ref().take(spans as usize).map(|&part| u32::from(part)).sum::<u32>() + 1,
+                Some(_) => parts
+                    .by_ref()
+                    .take(spans as usize)
+                    .fold(1, |len: u32, &part| len.saturating_add(part.into())),
                 None => spans + 1,
             }
         })
@@ -116,7 +158,7 @@ impl Polylines {
     /// Values given one a control point, at the points of the strands.
     pub(crate) fn per_point<P: Point>(&self, values: Vec<P>) -> Vec<P> {
         let Some(basis) = self.shape.basis else { return self.closed(values) };
-        let mut out = Vec::new();
+        let mut out = Vec::with_capacity(self.points() as usize);
         for (curve, parts) in each(&values, &self.counts).zip(self.parts()) {
             cubic::sample(curve, basis, self.shape.wrap, parts, &mut out);
         }
@@ -132,7 +174,7 @@ impl Polylines {
         if self.shape.basis.is_none() {
             return Some(self.closed(values));
         }
-        let mut out = Vec::new();
+        let mut out = Vec::with_capacity(self.points() as usize);
         for (curve, parts) in each(&values, &counts).zip(self.parts()) {
             cubic::sample_varying(curve, self.shape.wrap, parts, &mut out);
         }

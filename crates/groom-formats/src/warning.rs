@@ -44,6 +44,15 @@ pub enum Warning {
         /// How many prims and sublayers.
         prims: usize,
     },
+    /// Cubic curves became lines with a larger error than is usual, for the sake of memory.
+    #[error(
+        "the curves become lines within {error:.1e} of their length, not 1e-3: nearer ones would take more than \
+         four times their points; a curve error that is asked for is kept"
+    )]
+    CurvesCoarser {
+        /// The error, in lengths of a curve.
+        error: f64,
+    },
     /// The format has no place for an attribute.
     #[error("{format} cannot hold the attribute `{name}`; it is left out")]
     AttributeLeftOut {

@@ -385,3 +385,75 @@ fn every_shorter_file_is_refused() {
         assert!(read_with(&text[..len], &ReadOptions::default()).is_err(), "{len}");
     }
 }
+
+#[test]
+fn curves_without_an_error_asked_for_stay_within_four_times_their_points() {
+    // Loops: a thousandth of their length would be 40 lines a curve.
+    let loops = 20_000;
+    let text = curves(&format!(
+        "int[] curveVertexCounts = [{}]\npoint3f[] points = [{}]\nfloat[] widths = [1] (interpolation = \"constant\")",
+        "4, ".repeat(loops),
+        "(0, 0, 0), (1, 3, 0), (-1, 3, 0), (0, 0, 0), ".repeat(loops)
+    ));
+    let loaded = read(&text);
+    assert_eq!(loaded.groom.strand_count(), loops);
+    assert!(loaded.groom.point_count() <= 16 * loops, "{}", loaded.groom.point_count());
+    let [Warning::CurvesCoarser { error }] = loaded.warnings[..] else {
+        unreachable!("{:?}", loaded.warnings)
+    };
+    assert!(error > 1e-3 && error < 0.02, "{error}");
+    // What is asked for is kept.
+    let asked = ReadOptions { curve_error: Some(0.005), ..ReadOptions::default() };
+    let asked = read_with(&text, &asked).unwrap();
+    assert!(asked.groom.point_count() > 16 * loops && asked.warnings.is_empty());
+}
+
+/// A crate holds equal arrays once: prims with the same points, and the same primvar under many names.
+#[cfg(feature = "usdc")]
+fn shared(prims: usize, primvars: usize) -> Vec<u8> {
+    use usd_layer::write::{Attribute, Content, CrateWriter, Value};
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    let mut layer = CrateWriter::new(&mut bytes).unwrap();
+    let points = vec![[1.0, 2.0, 3.0]; 10_000];
+    for index in 0..prims {
+        let prim = layer.prim(&format!("/C{index}"), "BasisCurves").unwrap();
+        let mut set = |name: &str, type_name, interpolation, value: Value<'_>| {
+            let content = Content::Value(layer.store(value).unwrap());
+            let attribute = Attribute { name, type_name, uniform: false, interpolation, content };
+            layer.attribute(prim, attribute).unwrap();
+        };
+        set("type", "token", None, Value::Token("linear"));
+        set("curveVertexCounts", "int[]", None, Value::Ints(&[10_000]));
+        set("points", "point3f[]", None, Value::Float3s(&points));
+        for number in 0..primvars {
+            set(&format!("primvars:p{number}"), "float3[]", Some("vertex"), Value::Float3s(&points));
+        }
+    }
+    layer.finish().unwrap();
+    bytes.into_inner()
+}
+
+#[cfg(feature = "usdc")]
+#[test]
+fn arrays_that_are_stored_once_are_not_read_without_end() {
+    let read = |bytes: &[u8]| read_from(Format::Usdc, bytes, "a.usdc", &ReadOptions::default());
+    assert_eq!(read(&shared(3, 1)).unwrap().groom.point_count(), 30_000);
+    for (prims, primvars) in [(100, 0), (1, 100)] {
+        let bytes = shared(prims, primvars);
+        assert!(bytes.len() < 200_000);
+        let error = read(&bytes).unwrap_err().to_string();
+        assert!(error.contains("no more than four times the file's size"), "{error}");
+    }
+    // Constants of one prim, one a strand of another.
+    let mut text = String::from("#usda 1.0\ndef BasisCurves \"A\"\n{\n");
+    for number in 0..100 {
+        writeln!(text, "int primvars:p{number} = 7").unwrap();
+    }
+    let strands = 40_000;
+    let points = "(0,0,0),".repeat(strands);
+    writeln!(text, "}}\ndef BasisCurves \"B\"\n{{\nuniform token type = \"linear\"").unwrap();
+    writeln!(text, "int[] curveVertexCounts = [{}]\npoint3f[] points = [{points}]\n}}", "1,".repeat(strands))
+        .unwrap();
+    let error = told(&text);
+    assert!(error.contains("attribute `p") && error.contains("no more than four times"), "{error}");
+}

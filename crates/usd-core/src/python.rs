@@ -10,8 +10,9 @@ use crate::UsdCoreError;
 /// Names a Python that has usd-core; nothing else is then tried.
 const CHOSEN: &str = "GROOMKIT_PYTHON";
 
-/// Asks whether the package is there without loading it.
-const PROBE: &str = "import importlib.util as u, sys; sys.exit(0 if u.find_spec('pxr') else 1)";
+/// Asks whether the package, and numpy that our programs use with it, are there without loading them.
+const PROBE: &str =
+    "import importlib.util as u, sys; sys.exit(0 if u.find_spec('pxr') and u.find_spec('numpy') else 1)";
 
 /// The first Python that has usd-core: `$GROOMKIT_PYTHON`, the environment `cargo xtask setup` makes beside
 /// the program, `python3`, `python`.

@@ -9,7 +9,8 @@ use tempfile::TempDir;
 
 use crate::{Finding, UsdCoreError, python, scripts};
 
-/// What `check.py` exits with when it found something: its answer is then whole all the same.
+/// What `check.py` exits with when it found something: its answer is then whole all the same. A Python that stops
+/// with an exception of its own exits with it too.
 const FOUND_WANTING: i32 = 1;
 
 /// usd-core in a Python of this machine.
@@ -43,7 +44,11 @@ impl UsdCore {
     /// [`UsdCoreError::Failed`] when the file cannot be opened as a stage.
     pub fn check(&self, file: &Path) -> Result<Vec<Finding>, UsdCoreError> {
         const SCRIPT: &str = "check.py";
-        let output = self.run(SCRIPT, file, [OsStr::new("--json"), file.as_os_str()])?;
+        let output = self.run(SCRIPT, [OsStr::new("--json"), file.as_os_str()])?;
+        let wanting = output.status.code() == Some(FOUND_WANTING) && !output.stdout.is_empty();
+        if !wanting {
+            succeeded(SCRIPT, file, &output)?;
+        }
         let report: Result<BTreeMap<String, Vec<Finding>>, _> = serde_json::from_slice(&output.stdout);
         let name = file.display().to_string();
         let report = report.map_err(|source| UsdCoreError::Answer { script: SCRIPT, file: name, source })?;
@@ -63,7 +68,7 @@ impl UsdCore {
         if let Some((first, last)) = options.frames {
             arguments.extend(["--frames".into(), format!("{first}:{last}").into()]);
         }
-        self.run("bake.py", input, arguments).map(drop)
+        succeeded("bake.py", input, &self.run("bake.py", arguments)?)
     }
 
     /// Packages the stage `input` and all it refers to as `output`, a `.usdz`.
@@ -71,27 +76,28 @@ impl UsdCore {
     /// # Errors
     /// [`UsdCoreError::Failed`]; `output` is then as it was.
     pub fn package(&self, input: &Path, output: &Path) -> Result<(), UsdCoreError> {
-        self.run("package.py", input, [input, output]).map(drop)
+        succeeded("package.py", input, &self.run("package.py", [input, output])?)
     }
 
     fn run(
         &self,
         script: &'static str,
-        file: &Path,
         arguments: impl IntoIterator<Item = impl AsRef<OsStr>>,
     ) -> Result<Output, UsdCoreError> {
         // -B: nothing is to be compiled into a folder that goes away.
         let mut command = Command::new(&self.python);
         command.arg("-B").arg(self.scripts.path().join(script)).args(arguments).stdin(Stdio::null());
-        let output = command
-            .output()
-            .map_err(|e| UsdCoreError::io(format!("{} {script}", self.python.display()), e))?;
-        if matches!(output.status.code(), Some(0 | FOUND_WANTING)) {
-            return Ok(output);
-        }
-        let told = String::from_utf8_lossy(&output.stderr);
-        let told = told.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
-        let (file, told) = (file.display().to_string(), format!("{told} ({})", output.status));
-        Err(UsdCoreError::Failed { script, file, told })
+        command.output().map_err(|e| UsdCoreError::io(format!("{} {script}", self.python.display()), e))
     }
+}
+
+/// An error with the program's last words unless it did what it was asked for.
+fn succeeded(script: &'static str, file: &Path, output: &Output) -> Result<(), UsdCoreError> {
+    if output.status.success() {
+        return Ok(());
+    }
+    let told = String::from_utf8_lossy(&output.stderr);
+    let told = told.lines().rev().find(|line| !line.trim().is_empty()).unwrap_or("it said nothing");
+    let (file, told) = (file.display().to_string(), format!("{told} ({})", output.status));
+    Err(UsdCoreError::Failed { script, file, told })
 }

@@ -51,6 +51,9 @@ impl<'a> Scene<'a> {
             let curves = self.curves(index, options, None)?;
             let attributes = params::read(&curves, &self.samples, &mut warnings);
             let attributes = attributes.map_err(|error| self.fault(index, error))?;
+            if let Some(error) = curves.polylines.coarser {
+                warnings.push(Warning::CurvesCoarser { error });
+            }
             let strand_lens = curves.polylines.strand_lens().collect();
             parts.push(Part { strand_lens, points: curves.positions.len(), attributes });
             let counts = &curves.polylines.counts;
@@ -67,7 +70,11 @@ impl<'a> Scene<'a> {
             }
             cuts.push(curves.polylines);
         }
-        let mut groom = join::groom(parts, positions, Format::Alembic, self.file, &mut warnings)?;
+        let take = |name: &str, count: usize, size: usize| {
+            let taken = self.samples.spend(count.saturating_mul(size), name);
+            taken.map_err(|error| self.fault(0, error))
+        };
+        let mut groom = join::groom(parts, positions, Format::Alembic, self.file, &take, &mut warnings)?;
         if empty > 0 {
             warnings.push(Warning::EmptyStrandsLeftOut { format: Format::Alembic, strands: empty });
             if groom.attribute(names::ID).is_none() && self.tree.curves.len() == 1 {

@@ -5,6 +5,7 @@ use groom::{Attribute, Domain, Values, names};
 
 use super::curves::Curves;
 use super::values::{self, Fault};
+use crate::join::value_size;
 use crate::{FormatError, Warning};
 
 /// Every attribute of a prim that a groom can hold, by its name there.
@@ -117,18 +118,26 @@ fn read<B: AsRef<[u8]>>(
     let indices = curves.prim.attribute(&format!("{}:indices", attribute.name));
     let indices =
         indices.map(|indices| values::integers(&curves.stage.layer, indices, curves.time)).transpose();
+    let (name, size) = (&*attribute.name, value_size(&values));
     let values = match indices.map_err(error)?.flatten() {
         Some(indices) => {
+            curves.take(name, indices.len(), size)?;
             let fault = |found| {
                 Fault::value(&format!("{}:indices", attribute.name), found, format!("0 to {}", values.len()))
             };
             look_up(&values, &indices).map_err(|index| error(fault(format!("index {index}"))))?
         }
-        None => values,
+        None => {
+            curves.take(name, values.len(), size)?;
+            values
+        }
     };
     let (found, interpolation) = (values.len(), attribute.interpolation().unwrap_or(fallback));
     match place(curves, values, interpolation) {
-        Some(attribute) => Ok(Some(attribute)),
+        Some(attribute) => {
+            curves.take_sampled(name, found, attribute.values.len(), size)?;
+            Ok(Some(attribute))
+        }
         None => left_out(format!("{found} values do not fit its interpolation, {interpolation}")),
     }
 }

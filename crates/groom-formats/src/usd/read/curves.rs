@@ -72,11 +72,51 @@ impl<'s, B: AsRef<[u8]>> Curves<'s, B> {
         let control_points = points.len();
         let curves =
             Curves { stage, prim, path: &place.path, time, polylines, control_points, world_from_prim };
+        curves.refuse_too_many()?;
+        curves.take("points", control_points, size_of::<Vec3>())?;
+        curves.take_sampled(
+            "points",
+            control_points,
+            curves.polylines.points() as usize,
+            size_of::<Vec3>(),
+        )?;
         let mut points = curves.polylines.per_point(points);
         if let Some(world) = curves.world_from_prim {
             points.iter_mut().for_each(|point| *point = world.transform_point3(point.as_dvec3()).as_vec3());
         }
         Ok((curves, points))
+    }
+
+    /// Takes room for what sampling adds to `control` values. What the user asks for by an error of his own is
+    /// given: a span still has a bounded number of parts.
+    pub(super) fn take_sampled(
+        &self,
+        attribute: &str,
+        control: usize,
+        sampled: usize,
+        size: usize,
+    ) -> Result<(), FormatError> {
+        match self.stage.context.curve_error {
+            Some(_) => Ok(()),
+            None => self.take(attribute, sampled.saturating_sub(control), size),
+        }
+    }
+
+    /// Refuses, before they are made, more points than a groom can count.
+    fn refuse_too_many(&self) -> Result<(), FormatError> {
+        let (found, limit) = (self.polylines.points(), u64::from(u32::MAX));
+        if found <= limit {
+            return Ok(());
+        }
+        let found = format!("lines of {found} points");
+        let expected = format!("{limit} at most; a larger curve error makes fewer");
+        Err(self.error(Fault::value("points", found, expected)))
+    }
+
+    /// Takes room for an attribute of the groom.
+    pub(super) fn take(&self, attribute: &str, count: usize, size: usize) -> Result<(), FormatError> {
+        let taken = self.stage.context.room.take(count, size);
+        taken.map_err(|(found, expected)| self.error(Fault::value(attribute, found, expected)))
     }
 
     /// A value that is wrong.

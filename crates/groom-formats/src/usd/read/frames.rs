@@ -6,6 +6,7 @@ use super::curves::Curves;
 use super::stage::Stage;
 use super::{attribute, load, open};
 use crate::polylines::Polylines;
+use crate::room::Room;
 use crate::{Format, FormatError, Frame, Loaded, ReadOptions};
 
 /// The groom at its first time, and its frames.
@@ -51,7 +52,8 @@ impl Iterator for Frames {
         let time = *parts.times.get(self.next)?;
         self.next += 1;
         let Parts { layer, curves, times, composed, format, curve_error } = parts;
-        let context = super::Context { file: &self.file, format, curve_error };
+        let room = Room::of(layer.bytes().len());
+        let context = super::Context { file: &self.file, format, curve_error, room };
         let stage = Stage { layer, context, curves, times, composed };
         let frame = frame(&stage, time, &self.cuts);
         let Stage { layer, curves, times, composed, .. } = stage;

@@ -21,6 +21,9 @@ pub(super) fn merge<B: AsRef<[u8]>>(
     for place in &stage.curves {
         let (curves, points) = Curves::read(stage, place, time, None)?;
         let attributes = attribute::all(&curves, warnings)?.into_iter().collect();
+        if let Some(error) = curves.polylines.coarser {
+            warnings.push(Warning::CurvesCoarser { error });
+        }
         parts.push(Part {
             strand_lens: curves.polylines.strand_lens().collect(),
             points: points.len(),
@@ -34,7 +37,13 @@ pub(super) fn merge<B: AsRef<[u8]>>(
         }
         cuts.push(curves.polylines);
     }
-    let mut groom = join::groom(parts, positions, stage.context.format, file, warnings)?;
+    let take = |name: &str, count, size| {
+        let taken = stage.context.room.take(count, size);
+        taken.map_err(|(found, expected)| {
+            FormatError::invalid(file, format!("attribute `{name}`"), found, expected)
+        })
+    };
+    let mut groom = join::groom(parts, positions, stage.context.format, file, &take, warnings)?;
     if groom.attribute(names::RADIUS).is_none() {
         warnings.push(Warning::NoRadius { radius: groom::DEFAULT_RADIUS });
         let radius = Attribute::constant_float(groom::DEFAULT_RADIUS);

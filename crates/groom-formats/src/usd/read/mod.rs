@@ -30,6 +30,7 @@ use groom::UpAxis;
 use usd_layer::{Layer, ReadError};
 
 use crate::polylines::Polylines;
+use crate::room::Room;
 use crate::{Format, FormatError, Loaded, ReadOptions, Warning};
 
 pub(crate) use frames::read as read_frames;
@@ -55,6 +56,8 @@ pub(crate) struct Context<'a> {
     pub(crate) file: &'a str,
     pub(crate) format: Format,
     pub(crate) curve_error: Option<f32>,
+    /// What the groom, or one frame of it, may take.
+    pub(crate) room: Room,
 }
 
 fn open<'n, B: AsRef<[u8]>>(
@@ -64,7 +67,8 @@ fn open<'n, B: AsRef<[u8]>>(
     options: &ReadOptions,
 ) -> Result<stage::Stage<'n, B>, FormatError> {
     let layer = Layer::read(bytes).map_err(|error| broken(name, &error))?;
-    let context = Context { file: name, format, curve_error: options.curve_error };
+    let room = Room::of(layer.bytes().as_ref().len());
+    let context = Context { file: name, format, curve_error: options.curve_error, room };
     stage::Stage::new(layer, context)
 }
 
