@@ -18,7 +18,9 @@ pub struct ReadOptions {
     /// Points of every strand in a file that is a bare list of them (PLY without strands).
     pub points_per_strand: Option<u32>,
     /// How far, in the file's units, a polyline may lie from the cubic curve it stands for; `None` is a
-    /// thousandth of the curve's length.
+    /// thousandth of the curve's length, or as much more as keeps the polylines within four times the curves'
+    /// points ([`Warning::CurvesCoarser`](crate::Warning::CurvesCoarser)). An error that is given is kept, with up
+    /// to 256 points a span.
     pub curve_error: Option<f32>,
     /// Which time of an animated file, in its frames (time codes); `None` is the first.
     pub time: Option<f64>,
