@@ -20,7 +20,7 @@ pub(crate) fn statement(groom: &Groom, look: Option<&Look>, warnings: &mut Vec<W
             list(look.absorption.map(f64::from)),
             look.beta_m,
             look.beta_n,
-            look.alpha.to_degrees(),
+            -look.alpha.to_degrees(),
             look.eta
         );
     }

@@ -15,7 +15,9 @@
 //! or runs evenly from point to point (to a thousandth) is one shape, any other one shape a segment.
 //!
 //! The material is `WriteOptions::look`: absorption, roughness and index as they are (pbrt, too, measures absorption
-//! per radius of the fibre), the tilt in degrees. Without a look it is the mean colour of the strands, as the
+//! per radius of the fibre). The tilt is written in degrees with its sign turned: a positive `alpha` of pbrt moves
+//! R towards the end of the curve, the tip, and ours towards the root, as the scales of hair do
+//! (`HairBxDF::f` in `bxdfs.cpp` takes 2 alpha from the outgoing angle, measured towards the curve's end). Without a look it is the mean colour of the strands, as the
 //! absorption that gives it at pbrt's own roughness (`HairBxDF::SigmaAFromReflectance`: Chiang et al. 2016,
 //! equation 9); without a colour it is pbrt's default.
 //!
