@@ -138,7 +138,7 @@ fn what_cannot_be_done_exits_with_2_and_leaves_nothing() {
     std::fs::write(folder.path("hair.bin"), TEXT).unwrap();
     std::fs::create_dir(folder.path("folder.txt")).unwrap();
     let before = folder.names();
-    let cases: [(&[&str], &str); 37] = [
+    let cases: [(&[&str], &str); 48] = [
         (&["missing.hair", "out.txt"], "missing.hair"),
         (&["bad.hair", "out.txt"], "bad.hair"),
         (&["bad.txt", "out.hair"], "bad.txt: line 2, column 3: found `x`"),
@@ -157,6 +157,17 @@ fn what_cannot_be_done_exits_with_2_and_leaves_nothing() {
         (&["in.##.txt", "out.txt"], "txt holds no motion"),
         (&["in.txt", "out.txt", "--check"], "--check is for USD"),
         (&["in.txt", "out.usda", "--bake"], "--bake is for USD"),
+        (&["in.txt", "out.txt", "--for", "unreal"], "--for is for USD and Alembic, and out.txt is txt"),
+        (&["in.txt", "out.ply", "--as-mesh", "tubes"], "--as-mesh is for glTF"),
+        (&["in.txt", "out.usda", "--all-attributes"], "--all-attributes is for glTF"),
+        (&["in.txt", "out.abc", "--material", "groom"], "--material is for USD and pbrt"),
+        (&["in.txt", "out.glb", "--fps", "30"], "--fps is for outputs that move"),
+        (&["in.txt", "out.glb", "--frames", "1-3"], "--frames is for outputs that move"),
+        (&["in.txt", "out.usda", "--frames", "1-3"], "--frames is for inputs that move"),
+        (&["in.txt", "out.usda", "--points-per-strand", "2"], "--points-per-strand is for ply"),
+        (&["in.txt", "out.usda", "--curve-error", "1"], "--curve-error is for USD and Alembic"),
+        (&["in.txt", "--info", "--time", "3"], "--time is for USD and Alembic, and in.txt is txt"),
+        (&["in.txt", "--info", "--fps", "24"], "--fps"),
         (&["in.txt", "out.usda", "--beta-m", "0.2"], "--material"),
         (&["in.txt", "out.usda", "--material", "color:1,1"], "--material"),
         (&["in.txt", "out.usda", "--material", "groom", "--eta", "9"], "9"),

@@ -34,8 +34,9 @@ impl Groom {
         self.resample(|_, length| (length / f64::from(step)).ceil().max(1.0))
     }
 
-    /// Every strand with as many points as `like`, the offsets of another groom, gives the strand of that index, evenly spread along its
-    /// length; otherwise as [`Groom::resample_by_count`]. Frames of one groom come out alike by this.
+    /// Every strand with as many points as `like`, the offsets of another groom, gives the strand of that
+    /// index, evenly spread along its length; otherwise as [`Groom::resample_by_count`]. Frames of one
+    /// groom come out alike by this.
     ///
     /// # Errors
     /// [`GroomError::Argument`] unless both have as many strands, and the others two points or more.

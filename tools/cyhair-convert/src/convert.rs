@@ -19,6 +19,8 @@ use crate::{material, reduction, streaming, usd};
 pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let start = Instant::now();
     let (output, format) = args.target()?;
+    args.refuse_misread()?;
+    args.refuse_miswritten(&output.display().to_string(), format)?;
     if args.writing.check && is_stream(output) {
         bail!("--check needs a file, and the output is standard output");
     }
@@ -27,6 +29,9 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let path = baked.as_ref().map_or(args.input(), |baked| &baked.path);
     let mut done = match motion::find(path, format, args)? {
         Some(moving) => convert_motion(moving, output, format, args)?,
+        None if args.writing.frames.is_some() => {
+            bail!("--frames is for inputs that move, and {} does not", args.input().display())
+        }
         None => convert_still(path, output, format, args)?,
     };
     if baked.is_some() {

@@ -10,6 +10,7 @@ use crate::load::{Input, load};
 use crate::report;
 
 pub(crate) fn run(args: &Args) -> Result<()> {
+    args.refuse_misread()?;
     let input = load(args)?;
     let figures = Statistics::of(&input.loaded.groom);
     if args.json {

@@ -1,7 +1,9 @@
 //! Inputs that move: a sequence of files, or a file with frames.
 
-use std::cell::Cell;
+use std::cell::{Cell, RefCell};
+use std::collections::BTreeSet;
 use std::path::Path;
+use std::rc::Rc;
 
 use anyhow::{Result, bail};
 use command_line::progress_bar;
@@ -26,7 +28,9 @@ pub(crate) struct Motion<'a> {
     pub(crate) warnings: Vec<Warning>,
     pub(crate) had_ids: bool,
     /// The first frame, edited.
-    pub(crate) groom: Groom,
+    pub(crate) groom: Rc<Groom>,
+    /// Attributes whose values differ from the first frame's in a frame that was stored.
+    changed: Rc<RefCell<BTreeSet<String>>>,
     frame_rate: f64,
     frames: Frames<'a>,
     frame_count: u64,
@@ -117,10 +121,12 @@ impl<'a> Motion<'a> {
         let mut groom = edits.apply(groom)?;
         // It comes with every frame.
         groom.remove_attribute(names::VELOCITY);
-        let offsets = groom.offsets().to_owned();
+        let groom = Rc::new(groom);
+        let changed = Rc::default();
+        let (like, differing) = (Rc::clone(&groom), Rc::clone(&changed));
         let frames = frames.map(move |frame| {
             let (time, name, groom) = frame?;
-            frame_of(time, &name, edits.apply(groom)?, &offsets)
+            frame_of(time, &name, edits.apply(groom)?, &like, &differing)
         });
         Ok(Motion {
             name: path.display().to_string(),
@@ -130,6 +136,7 @@ impl<'a> Motion<'a> {
             warnings,
             had_ids,
             groom,
+            changed,
             frame_rate: args.writing.fps.or(frame_rate).unwrap_or(FRAME_RATE),
             frames: Box::new(frames),
             frame_count,
@@ -142,7 +149,7 @@ impl<'a> Motion<'a> {
         output: &Path,
         format: Format,
         options: &WriteOptions,
-    ) -> Result<(Groom, u64, Vec<Warning>, u64)> {
+    ) -> Result<(Rc<Groom>, u64, Vec<Warning>, u64)> {
         if is_stream(output) {
             bail!("a groom that moves cannot go to standard output; name a file");
         }
@@ -164,20 +171,33 @@ impl<'a> Motion<'a> {
         bar.finish();
         match (fault.take(), written) {
             (Some(error), _) => Err(error),
-            (None, written) => Ok((self.groom, self.frame_count, written?, size(output))),
+            (None, written) => {
+                let mut lost = written?;
+                lost.extend(self.changed.take().into_iter().map(|name| Warning::AttributeNotRead {
+                    name,
+                    why: "only points and velocities move, and it changes; the first frame's is kept".into(),
+                }));
+                Ok((self.groom, self.frame_count, lost, size(output)))
+            }
         }
     }
 }
 
-/// A groom as a frame of one with these offsets.
-fn frame_of(time: f64, name: &str, mut groom: Groom, offsets: &[u32]) -> Result<Frame> {
-    if groom.offsets() != offsets {
+/// A groom as a frame of `like`; notes the names of the attributes that differ.
+fn frame_of(
+    time: f64,
+    name: &str,
+    mut groom: Groom,
+    like: &Groom,
+    changed: &RefCell<BTreeSet<String>>,
+) -> Result<Frame> {
+    if groom.offsets() != like.offsets() {
         bail!(
             "{name}: {} strands of {} points, expected {} of {}, as in the first frame, and as many on every strand",
             groom.strand_count(),
             groom.point_count(),
-            offsets.len() - 1,
-            offsets[offsets.len() - 1]
+            like.strand_count(),
+            like.point_count()
         );
     }
     let velocities = match groom.remove_attribute(names::VELOCITY) {
@@ -188,5 +208,8 @@ fn frame_of(time: f64, name: &str, mut groom: Groom, offsets: &[u32]) -> Result<
         }
         _ => None,
     };
+    let both = groom.attributes().chain(like.attributes());
+    let differing = both.filter(|(name, _)| groom.attribute(name) != like.attribute(name));
+    changed.borrow_mut().extend(differing.map(|(name, _)| name.to_owned()));
     Ok(Frame { time, positions: groom.positions().to_owned(), velocities })
 }

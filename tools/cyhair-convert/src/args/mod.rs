@@ -3,6 +3,7 @@
 mod look;
 mod material;
 mod measuring;
+mod misfits;
 mod reading;
 mod strands;
 mod target;
@@ -38,7 +39,8 @@ Examples:
 ///
 /// Formats go by the ending; --formats lists them. A moving input (USD, Alembic, a sequence of files) stays
 /// moving where the output can hold it (.usda .usdc .usdz .abc). The output is written whole or not at all,
-/// over what is there (a device or named pipe is written to as it stands). NAME.gltf comes with NAME.bin beside it. What a format cannot hold is told on stderr.
+/// over what is there (a device or named pipe is written to as it stands). NAME.gltf comes with NAME.bin beside
+/// it. What a format cannot hold is told on stderr.
 #[derive(Debug, Parser)]
 #[command(
     name = "cyhair-convert",
@@ -55,7 +57,8 @@ pub(crate) struct Args {
     pub(crate) output: Option<PathBuf>,
 
     /// Say what is in the input instead of converting it
-    #[arg(long, conflicts_with_all = ["strands", "look", "measuring", "to"])]
+    #[arg(long, conflicts_with_all = ["strands", "look", "measuring", "to", "dialect", "as_mesh",
+        "all_attributes", "fps", "frames", "check", "material"])]
     pub(crate) info: bool,
 
     /// List the formats: what is read, what is written, what each holds
