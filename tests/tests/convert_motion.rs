@@ -68,7 +68,7 @@ fn a_sequence_moves_through_usd_and_alembic_to_the_bit() {
     ];
     for (i, step) in steps.into_iter().enumerate() {
         let rate: &[&str] = if i == 0 { &["--fps", "30"] } else { &[] };
-        let words = convert(folder.path(), &[&step, rate].concat());
+        let words = convert(folder.path(), &[&step[..], rate].concat());
         assert!(words.contains("4 frames"), "{words}");
         assert!(frames(&folder.path().join(step[1])) == (expected.clone(), Some(30.0)), "{step:?}");
     }
@@ -85,7 +85,7 @@ fn a_part_and_a_still_are_taken_as_asked() {
     assert!(times("one.usdc").len() < 2);
     convert(folder.path(), &["part.usdc", "first.hair"]);
     convert(folder.path(), &["part.usdc", "last.hair", "--time", "3"]);
-    let points = |name: &str| read(path(name), &ReadOptions::default()).unwrap().groom.positions().to_vec();
+    let points = |name: &str| read(&path(name), &ReadOptions::default()).unwrap().groom.positions().to_vec();
     assert!(points("first.hair") == points("walk.0002.hair"));
     assert!(points("last.hair") == points("walk.0003.hair"));
     let refused = attempt(folder.path(), &["part.usdc", "none.abc", "--frames", "8-9"]);

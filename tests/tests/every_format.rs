@@ -52,11 +52,14 @@ fn both_ways() -> impl Iterator<Item = Format> {
     Format::ALL.into_iter().filter(|format| format.can_read() && format.can_write())
 }
 
-fn there_and_back(groom: &Groom, format: Format, folder: &Path) -> (Groom, Vec<Warning>) {
+fn there_and_back(
+    groom: &Groom,
+    format: Format,
+    folder: &Path,
+    options: &WriteOptions,
+) -> (Groom, Vec<Warning>) {
     let path = folder.join(format!("groom.{format}"));
-    // Everything the format can hold is what is asked for.
-    let options = WriteOptions { all_attributes: true, ..WriteOptions::default() };
-    let warnings = write(groom, &path, &options).unwrap_or_else(|error| panic!("{error}"));
+    let warnings = write(groom, &path, options).unwrap_or_else(|error| panic!("{error}"));
     let options = ReadOptions { up_axis: Some(groom.up_axis), ..ReadOptions::default() };
     let Loaded { groom, .. } = read(&path, &options).unwrap_or_else(|error| panic!("{error}"));
     (groom, warnings)
@@ -97,8 +100,13 @@ fn names_it(warnings: &[Warning], name: &str) -> bool {
 fn what_goes_in_comes_out_or_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let groom = full_groom();
-    for format in both_ways() {
-        let (back, warnings) = there_and_back(&groom, format, folder.path());
+    // What is written unasked, and everything the format can hold.
+    let options =
+        [false, true].map(|all_attributes| WriteOptions { all_attributes, ..WriteOptions::default() });
+    for (format, options) in
+        both_ways().flat_map(|format| options.iter().map(move |options| (format, options)))
+    {
+        let (back, warnings) = there_and_back(&groom, format, folder.path(), options);
         assert_eq!(back.offsets(), groom.offsets(), "{format}");
         assert_eq!(back.positions(), groom.positions(), "{format}");
         for (name, _) in groom.attributes() {
@@ -109,6 +117,35 @@ fn what_goes_in_comes_out_or_is_named() {
                 "{format} lost `{name}` without a word: {:?}, warnings {warnings:?}",
                 back.attribute(name)
             );
+        }
+    }
+}
+
+#[test]
+fn unit_and_axis_survive_or_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    for (up_axis, meters_per_unit) in [(UpAxis::Z, 1.0), (UpAxis::Y, 1.0), (UpAxis::Y, 0.5), (UpAxis::Z, 0.5)]
+    {
+        let mut groom = full_groom();
+        (groom.up_axis, groom.meters_per_unit) = (up_axis, meters_per_unit);
+        for format in both_ways() {
+            let path = folder.path().join(format!("groom.{format}"));
+            let warnings = write(&groom, &path, &WriteOptions::default()).unwrap();
+            let back = read(&path, &ReadOptions::default()).unwrap().groom;
+            if matches!(format, Format::Gltf | Format::Glb) {
+                // Turned and scaled instead.
+                let is_upright = back.up_axis == UpAxis::Y && back.meters_per_unit == 1.0;
+                let at = |v: Vec3| if up_axis == UpAxis::Y { v } else { Vec3::new(v.x, v.z, -v.y) };
+                let pairs = groom.positions().iter().zip(back.positions());
+                let near =
+                    pairs.into_iter().all(|(&a, &b)| (at(a) * meters_per_unit as f32).abs_diff_eq(b, 1e-6));
+                assert!(is_upright && near, "{format} {up_axis:?} {meters_per_unit}");
+                continue;
+            }
+            let axis_told = warnings.iter().any(|w| matches!(w, Warning::UpAxisNotStored { .. }));
+            let unit_told = warnings.iter().any(|w| matches!(w, Warning::UnitNotStored { .. }));
+            assert!(back.up_axis == up_axis || axis_told, "{format}: {up_axis:?}");
+            assert!(back.meters_per_unit == meters_per_unit || unit_told, "{format}: {meters_per_unit}");
         }
     }
 }
@@ -148,7 +185,7 @@ fn real_grooms_keep_their_points_in_every_format() {
         // Not turned on the way to glTF.
         groom.up_axis = UpAxis::Y;
         for format in both_ways() {
-            let (back, _) = there_and_back(&groom, format, folder.path());
+            let (back, _) = there_and_back(&groom, format, folder.path(), &WriteOptions::default());
             assert_eq!(back.offsets(), groom.offsets(), "{} in {format}", input.display());
             assert!(back.positions() == groom.positions(), "{} in {format}", input.display());
         }
