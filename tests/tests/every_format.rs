@@ -59,9 +59,9 @@ fn there_and_back(
     options: &WriteOptions,
 ) -> (Groom, Vec<Warning>) {
     let path = folder.join(format!("groom.{format}"));
-    let warnings = write(groom, &path, options).unwrap_or_else(|error| panic!("{error}"));
+    let warnings = write(groom, &path, options).unwrap();
     let options = ReadOptions { up_axis: Some(groom.up_axis), ..ReadOptions::default() };
-    let Loaded { groom, .. } = read(&path, &options).unwrap_or_else(|error| panic!("{error}"));
+    let Loaded { groom, .. } = read(&path, &options).unwrap();
     (groom, warnings)
 }
 
@@ -96,7 +96,6 @@ fn names_it(warnings: &[Warning], name: &str) -> bool {
 }
 
 #[test]
-#[allow(clippy::panic)]
 fn what_goes_in_comes_out_or_is_named() {
     let folder = tempfile::tempdir().unwrap();
     let groom = full_groom();
