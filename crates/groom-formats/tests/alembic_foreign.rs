@@ -399,6 +399,35 @@ fn a_small_file_makes_no_large_groom() {
     refused(&bytes, "4 times the file in all");
 }
 
+/// A file of objects that have a header and nothing else, and share the group of nothing.
+fn objects_of_nothing(objects: usize) -> Vec<u8> {
+    fn put(file: &mut Vec<u8>, count: u64, bytes: &[u8]) -> u64 {
+        let place = file.len() as u64;
+        file.extend(count.to_le_bytes());
+        file.extend(bytes);
+        place
+    }
+    const DATA: u64 = 1 << 63;
+    let mut file = b"Ogawa\xff\0\x01\0\0\0\0\0\0\0\0".to_vec();
+    let headers = vec![0; 5 * objects + 32];
+    let headers = DATA | put(&mut file, headers.len() as u64, &headers);
+    let mut children = vec![0; objects + 1];
+    children.push(headers);
+    let top = put(&mut file, children.len() as u64, bytemuck::cast_slice(&children));
+    let version = DATA | put(&mut file, 4, &0_i32.to_le_bytes());
+    let library = DATA | put(&mut file, 4, &10_808_i32.to_le_bytes());
+    let root = [version, library, top, DATA, DATA, DATA];
+    let root = put(&mut file, 6, bytemuck::cast_slice(&root));
+    file[8..16].copy_from_slice(&root.to_le_bytes());
+    file
+}
+
+#[test]
+fn objects_of_nothing_take_no_memory() {
+    refused(&objects_of_nothing(1), "no curves");
+    refused(&objects_of_nothing(10_000), "objects");
+}
+
 #[test]
 fn older_archives_are_named() {
     refused(b"\x89HDF\r\n\x1a\n and so on", "an Alembic archive of the older HDF5 kind");

@@ -10,7 +10,7 @@ use glam::{Vec2, Vec3};
 use groom::{Domain, Groom, UpAxis, Values, names};
 use groom_formats::{Dialect, Format, FormatError, Warning, WriteOptions};
 use ogawa::{Archive, CompoundReader, DataType, ObjectReader, Pod, PropertyKind, PropertyReader};
-use support::{full_groom, set};
+use support::{from_bytes, full_groom, set};
 
 fn written(groom: &Groom, dialect: Option<Dialect>) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
@@ -152,6 +152,43 @@ fn the_groom_schema_is_unreals() {
     assert_eq!(property(&user, "groomkit_up_axis").sample(0).unwrap().texts().unwrap(), ["y"]);
     let unit = property(&user, "groomkit_meters_per_unit").sample(0).unwrap();
     assert_eq!(unit.to_vec::<f64>().unwrap(), [1.0]);
+}
+
+#[test]
+fn guides_are_three_whole_numbers_a_strand() {
+    let mut groom = full_groom();
+    groom.remove_attribute(names::ID);
+    // A float has no such number.
+    let far = (1 << 24) + 1;
+    set(&mut groom, names::CLOSEST_GUIDE, Domain::Strand, Values::Int(vec![2, far, 0]));
+    for dialect in [None, Some(Dialect::Unreal)] {
+        let bytes = written(&groom, dialect);
+        let archive = Archive::new(&bytes).unwrap();
+        let geometry = inside(&hair(&archive).properties().unwrap(), ".geom");
+        let arbitrary = inside(&geometry, ".arbGeomParams");
+        assert!(arbitrary.find(names::CLOSEST_GUIDE).unwrap().is_none());
+        let guides = property(&arbitrary, "groom_closest_guides").sample(0).unwrap().to_vec::<i32>().unwrap();
+        assert_eq!(guides, [2, 2, 2, far, far, far, 0, 0, 0]);
+        let (of_guides, scope, _) = parameter(&arbitrary, "groom_closest_guides");
+        assert_eq!((of_guides, scope.as_str()), (DataType::new(Pod::I32, 3), "uni"));
+        let weights = (DataType::F32X3, "uni".to_owned(), [1.0, 0.0, 0.0].repeat(3));
+        assert_eq!(parameter(&arbitrary, "groom_guide_weights"), weights);
+        let ids = (DataType::I32, "uni".to_owned(), vec![0.0, 1.0, 2.0]);
+        assert_eq!(parameter(&arbitrary, "groom_id"), ids, "guides are named by their ids");
+
+        let read = from_bytes(Format::Alembic, &bytes).unwrap().groom;
+        assert_eq!(read.attribute(names::CLOSEST_GUIDE), groom.attribute(names::CLOSEST_GUIDE));
+        assert!(read.attribute("groom_guide_weights").is_none());
+    }
+    // Other programs' three guides stay whole numbers too.
+    let mut groom = full_groom();
+    let three = vec![Vec3::new(1.0, 2.0, 0.0), Vec3::ZERO, Vec3::new(-1.0, 2.0, 2.0)];
+    set(&mut groom, "groom_closest_guides", Domain::Strand, Values::Vec3(three));
+    let bytes = written(&groom, None);
+    let archive = Archive::new(&bytes).unwrap();
+    let geometry = inside(&hair(&archive).properties().unwrap(), ".geom");
+    let (data_type, _, numbers) = parameter(&inside(&geometry, ".arbGeomParams"), "groom_closest_guides");
+    assert_eq!((data_type, &numbers[6..]), (DataType::new(Pod::I32, 3), &[-1.0, 2.0, 2.0][..]));
 }
 
 #[test]

@@ -7,6 +7,7 @@
 //! | velocity per vertex | `.velocities`, per second |
 //! | root_uv | `uv` and `groom_root_uv`; stored once |
 //! | color, id, group, guide | `groom_color`, `groom_id`, `groom_group_id`, `groom_guide` |
+//! | closest_guide | `groom_closest_guides` (three times), `groom_guide_weights` (1, 0, 0), and `groom_id` |
 //! | transparency and any other | a parameter of its name among `.arbGeomParams` |
 //! | constant, per strand, per vertex | scope `con`, `uni`, `vtx` |
 //! | unit, up axis | `groomkit_meters_per_unit`, `groomkit_up_axis` among `.userProperties` |

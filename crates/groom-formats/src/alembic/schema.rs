@@ -22,6 +22,12 @@ pub(super) const UV: &str = "uv";
 
 pub(super) const GROOM_WIDTH: &str = "groom_width";
 pub(super) const GROOM_ROOT_UV: &str = "groom_root_uv";
+/// Ids of the three guides a strand follows, `int32[3]` per strand, and how much it follows each: `float[3]`.
+pub(super) const CLOSEST_GUIDES: &str = "groom_closest_guides";
+pub(super) const GUIDE_WEIGHTS: &str = "groom_guide_weights";
+pub(super) const THREE_GUIDES: DataType = DataType::new(Pod::I32, 3);
+/// The weights of a strand that follows one guide.
+pub(super) const ONE_GUIDE: [f32; 3] = [1.0, 0.0, 0.0];
 pub(super) const VERSION_MAJOR: (&str, i16) = ("groom_version_major", 1);
 pub(super) const VERSION_MINOR: (&str, i16) = ("groom_version_minor", 5);
 pub(super) const TOOL: &str = "groom_tool";
@@ -37,11 +43,14 @@ pub(super) const FRAME_RATE: &str = "_ai_DCC_FPS";
 /// The same, and what Blender calls it.
 pub(super) const FRAME_RATES: [&str; 2] = [FRAME_RATE, "FramesPerTimeUnit"];
 
+/// What `groom_id` is called, which guides are named by.
+pub(super) const GROOM_ID: &str = "groom_id";
+
 /// Standard attributes and their names among the arbitrary parameters. Transparency keeps its own: Unreal
 /// has none.
 pub(super) const PARAMETERS: [(&str, &str); 5] = [
     (names::COLOR, "groom_color"),
-    (names::ID, "groom_id"),
+    (names::ID, GROOM_ID),
     (names::GROUP, "groom_group_id"),
     (names::GUIDE, "groom_guide"),
     (names::ROOT_UV, GROOM_ROOT_UV),
@@ -68,7 +77,7 @@ pub(super) fn parameter(data_type: DataType, domain: Domain) -> Metadata {
         Pod::I32 => "int32_t",
         _ => "float32_t",
     };
-    // Unreal looks for vectors, also in `groom_color`, and refuses what is called anything else.
+    // Unreal looks for vectors, also in `groom_color` and `groom_closest_guides`, and refuses what is called anything else.
     let meaning = if data_type.extent > 1 { "vector" } else { "" };
     Metadata::new()
         .with("arrayExtent", "1")

@@ -10,13 +10,13 @@ const VERSION: i32 = 0;
 /// The oldest Alembic that wrote this layout.
 const OLDEST_LIBRARY: i32 = 9999;
 
-/// An archive in memory. Nothing is copied; what a place in the file says is checked when it is looked at.
+/// An archive in memory. Nothing but its times is copied; what a place in the file says is checked when it is looked at.
 #[derive(Clone, Debug)]
 pub struct Archive<'a> {
     top: Group<'a>,
     library: i32,
     metadata: MetadataText<'a>,
-    times: Cursor<'a>,
+    times: Vec<TimeSampling>,
     pub(super) table: Vec<MetadataText<'a>>,
 }
 
@@ -45,7 +45,7 @@ impl<'a> Archive<'a> {
         let mut words = root.data(3, "metadata")?.cursor();
         let len = root.data(3, "metadata")?.bytes.len() as u64;
         let metadata = MetadataText(words.text(len, "metadata")?);
-        let times = root.data(4, "time samplings")?.cursor();
+        let times = read_times(root.data(4, "time samplings")?.cursor())?;
         let table = read_table(root.data(5, "metadata table")?.cursor())?;
         let top = root.group(2, "top object")?;
         Ok(Archive { top, library, metadata, times, table })
@@ -70,26 +70,9 @@ impl<'a> Archive<'a> {
     }
 
     /// Times at which samples are taken: number `index` of the archive, `None` past the last.
-    ///
-    /// # Errors
-    /// [`OgawaError::Invalid`].
-    pub fn times(&self, index: u32) -> Result<Option<TimeSampling>, OgawaError> {
-        let what = "time samplings";
-        let mut cursor = self.times;
-        for place in 0.. {
-            if cursor.is_empty() {
-                break;
-            }
-            let _samples_taken = cursor.u32(what)?;
-            let cycle = cursor.f64(what)?;
-            let count = cursor.u32(what)?;
-            let (times, _) = cursor.take(u64::from(count) * 8, what)?.as_chunks::<8>();
-            if place == index {
-                let times = times.iter().map(|&time| f64::from_le_bytes(time)).collect();
-                return Ok(Some(TimeSampling::from_file(cycle, times)));
-            }
-        }
-        Ok(None)
+    #[must_use]
+    pub fn times(&self, index: u32) -> Option<&TimeSampling> {
+        self.times.get(usize::try_from(index).ok()?)
     }
 }
 
@@ -128,6 +111,31 @@ fn number(data: Data<'_>, what: &'static str) -> Result<i32, OgawaError> {
         return Err(OgawaError::invalid(data.offset, what, found, "4"));
     }
     Ok(data.cursor().u32(what)? as i32)
+}
+
+/// Read once, as every property asks for them.
+fn read_times(cursor: Cursor<'_>) -> Result<Vec<TimeSampling>, OgawaError> {
+    let (mut counted, mut samplings) = (cursor, 0);
+    while !counted.is_empty() {
+        one_sampling(&mut counted)?;
+        samplings += 1;
+    }
+    let mut cursor = cursor;
+    let sampling = |_| {
+        let (cycle, times) = one_sampling(&mut cursor)?;
+        let times = times.iter().map(|&time| f64::from_le_bytes(time)).collect();
+        Ok(TimeSampling::from_file(cycle, times))
+    };
+    (0..samplings).map(sampling).collect()
+}
+
+/// Seconds of a cycle, and the times in it.
+fn one_sampling<'a>(cursor: &mut Cursor<'a>) -> Result<(f64, &'a [[u8; 8]]), OgawaError> {
+    let what = "time samplings";
+    let _samples_taken = cursor.u32(what)?;
+    let cycle = cursor.f64(what)?;
+    let count = cursor.u32(what)?;
+    Ok((cycle, cursor.take(u64::from(count) * 8, what)?.as_chunks::<8>().0))
 }
 
 fn read_table(mut cursor: Cursor<'_>) -> Result<Vec<MetadataText<'_>>, OgawaError> {

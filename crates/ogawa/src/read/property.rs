@@ -113,11 +113,12 @@ impl<'a> PropertyReader<'a> {
     /// When its samples were taken.
     ///
     /// # Errors
-    /// [`OgawaError::Property`] when the archive does not know, [`OgawaError::Invalid`].
-    pub fn times(&self) -> Result<TimeSampling, OgawaError> {
+    /// [`OgawaError::Property`] when the archive does not know.
+    pub fn times(&self) -> Result<&'a TimeSampling, OgawaError> {
         let index = self.header.values.map_or(0, |values| values.times);
-        let times = self.archive.times(index)?;
-        times.ok_or_else(|| self.unlike(format!("times {index}"), "times the archive has"))
+        self.archive
+            .times(index)
+            .ok_or_else(|| self.unlike(format!("times {index}"), "times the archive has"))
     }
 
     /// The properties it is.

@@ -2,6 +2,8 @@
 
 mod curves;
 mod frames;
+mod gather;
+mod guides;
 mod params;
 mod scene;
 mod time;

@@ -2,11 +2,12 @@
 
 use std::collections::BTreeMap;
 
-use glam::{Vec2, Vec3};
 use groom::{Attribute, Domain, Values, names};
-use ogawa::{CompoundReader, OgawaError, PropertyKind, PropertyReader};
+use ogawa::{OgawaError, PropertyKind, PropertyReader};
 
 use super::curves::Curves;
+use super::gather::gather;
+use super::guides;
 use super::values::Samples;
 use crate::Warning;
 use crate::alembic::schema;
@@ -30,8 +31,20 @@ pub(super) fn read(
 ) -> Result<Attributes, OgawaError> {
     let mut reader = Reader { curves, samples, warnings, found: Attributes::new() };
     let arbitrary = curves.geometry.find(schema::ARBITRARY)?.map(|p| p.compound()).transpose()?;
-    for property in arbitrary.iter().flat_map(CompoundReader::iter) {
-        reader.arbitrary(&property?)?;
+    if let Some(arbitrary) = &arbitrary {
+        let closest = guides::closest(arbitrary, samples)?.filter(|ids| ids.len() == reader.strands());
+        let followed = closest.is_some();
+        if let Some(ids) = closest {
+            let values = reader.of_strands(Values::Int(ids));
+            reader.found.insert(names::CLOSEST_GUIDE.into(), Attribute { domain: Domain::Strand, values });
+        }
+        for property in arbitrary.iter() {
+            let property = property?;
+            let is_known = [schema::CLOSEST_GUIDES, schema::GUIDE_WEIGHTS].contains(&property.name());
+            if !(followed && is_known) {
+                reader.arbitrary(&property)?;
+            }
+        }
     }
     for name in [schema::WIDTH, schema::UV, NORMALS] {
         if let Some(property) = curves.geometry.find(name)? {
@@ -60,6 +73,10 @@ struct Reader<'r, 'a> {
 }
 
 impl Reader<'_, '_> {
+    fn strands(&self) -> usize {
+        self.curves.polylines.counts.len()
+    }
+
     fn arbitrary(&mut self, property: &PropertyReader<'_>) -> Result<(), OgawaError> {
         let name = property.name();
         let standard = schema::PARAMETERS.iter().find(|(_, written)| *written == name);
@@ -233,49 +250,4 @@ impl Reader<'_, '_> {
 
 fn choose<T: Copy>(values: &[T], indices: &[i32]) -> Option<Vec<T>> {
     indices.iter().map(|&index| values.get(usize::try_from(index).ok()?).copied()).collect()
-}
-
-/// Takes attributes that our writer spread over the points back to what they were, where they still are alike.
-fn gather(curves: &Curves<'_>, samples: &Samples, found: &mut Attributes) -> Result<(), OgawaError> {
-    let user = curves.geometry.find(schema::USER)?.map(|p| p.compound()).transpose()?;
-    let Some(domains) = user.map(|user| user.find(schema::DOMAINS)).transpose()?.flatten() else {
-        return Ok(());
-    };
-    if domains.sample_count() == 0 {
-        return Ok(());
-    }
-    let texts = samples.held(&domains)?.texts()?;
-    let lens: Vec<u32> = curves.polylines.strand_lens().collect();
-    for (name, domain) in texts.iter().flat_map(|text| text.split(',')).filter_map(|s| s.split_once('=')) {
-        let Some(attribute) = found.get_mut(name).filter(|a| a.domain == Domain::Vertex) else { continue };
-        let all = [curves.positions.len() as u32];
-        let (domain, lens) = match domain {
-            "strand" => (Domain::Strand, &lens[..]),
-            "groom" => (Domain::Groom, &all[..]),
-            _ => continue,
-        };
-        let gathered = match &attribute.values {
-            Values::Float(v) => firsts(v, lens, |v| [v.to_bits(), 0, 0]).map(Values::Float),
-            Values::Vec2(v) => firsts(v, lens, |v: Vec2| [v.x.to_bits(), v.y.to_bits(), 0]).map(Values::Vec2),
-            Values::Vec3(v) => firsts(v, lens, |v: Vec3| v.to_array().map(f32::to_bits)).map(Values::Vec3),
-            Values::Int(v) => firsts(v, lens, |v| [v as u32, 0, 0]).map(Values::Int),
-        };
-        if let Some(values) = gathered {
-            *attribute = Attribute { domain, values };
-        }
-    }
-    Ok(())
-}
-
-/// The first value of each run, if all of the run are the same to the bit.
-fn firsts<T: Copy>(values: &[T], lens: &[u32], bits: impl Fn(T) -> [u32; 3]) -> Option<Vec<T>> {
-    let mut rest = values;
-    lens.iter()
-        .map(|&len| {
-            let (run, after) = rest.split_at_checked(len as usize)?;
-            rest = after;
-            let first = *run.first()?;
-            run.iter().all(|&value| bits(value) == bits(first)).then_some(first)
-        })
-        .collect()
 }

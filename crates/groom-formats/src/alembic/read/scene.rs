@@ -32,12 +32,12 @@ impl<'a> Scene<'a> {
         time: Option<f64>,
     ) -> Result<Self, FormatError> {
         let error = |error| fault(file, "", error);
-        let tree = Tree::new(archive).map_err(error)?;
+        let tree = Tree::new(archive, file_len).map_err(error)?;
         if tree.curves.is_empty() {
             let expected = "one or more objects with the schema AbcGeom_Curve_v2";
             return Err(FormatError::invalid(file, "objects", "no curves", expected));
         }
-        let samples = Samples::new(Clock::new(archive).map_err(error)?, time, file_len);
+        let samples = Samples::new(Clock::new(archive), time, file_len);
         let times = times(&tree, &samples).map_err(error)?;
         Ok(Scene { file, tree, samples, times })
     }

@@ -28,19 +28,19 @@ pub(super) struct Moment {
 
 impl Clock {
     /// The archive's frame rate, or that of the first of its times that are a step.
-    pub(super) fn new(archive: &Archive<'_>) -> Result<Self, OgawaError> {
+    pub(super) fn new(archive: &Archive<'_>) -> Self {
         let good = |rate: &f64| rate.is_finite() && *rate > 0.0;
         let said = schema::FRAME_RATES.iter().find_map(|key| archive.metadata().get(key)?.parse().ok());
         if let Some(frame_rate) = said.filter(good) {
-            return Ok(Clock { frame_rate });
+            return Clock { frame_rate };
         }
         // Number 0 is there always and says nothing.
-        let step = match archive.times(1)? {
+        let step = match archive.times(1) {
             Some(times) if times.times.len() == 1 => times.seconds_per_cycle,
             _ => None,
         };
         let frame_rate = step.map(|step| near(1.0 / step)).filter(good).unwrap_or(FRAME_RATE);
-        Ok(Clock { frame_rate })
+        Clock { frame_rate }
     }
 
     fn frame(self, seconds: f64) -> f64 {

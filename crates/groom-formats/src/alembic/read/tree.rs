@@ -11,6 +11,9 @@ const XFORM: &str = "AbcGeom_Xform";
 /// The compound in which a transform stands.
 const XFORM_COMPOUND: &str = ".xform";
 
+/// Bytes that an object takes in a file, at least: its place, its header and a group with two digests.
+const OBJECT_BYTES: usize = 64;
+
 /// An object on the way to the curves.
 #[derive(Clone, Copy)]
 pub(super) struct Node<'a> {
@@ -29,7 +32,8 @@ pub(super) struct Tree<'a> {
 
 impl<'a> Tree<'a> {
     /// Goes through the whole archive.
-    pub(super) fn new(archive: &'a Archive<'a>) -> Result<Self, OgawaError> {
+    pub(super) fn new(archive: &'a Archive<'a>, file_len: usize) -> Result<Self, OgawaError> {
+        let most = file_len / OBJECT_BYTES;
         let mut tree = Tree::default();
         let mut seen = HashSet::new();
         let mut open = vec![(archive.top().children()?, None)];
@@ -45,6 +49,13 @@ impl<'a> Tree<'a> {
                     name: format!("{}/{}", tree.path(parent), child.name()),
                     found: format!("the object at byte {} a second time", child.offset()),
                     expected: "objects that hang in one place only".into(),
+                });
+            }
+            if tree.nodes.len() >= most {
+                return Err(OgawaError::Property {
+                    name: format!("{}/{}", tree.path(parent), child.name()),
+                    found: format!("more than {most} objects"),
+                    expected: format!("one in {OBJECT_BYTES} bytes of the file at most"),
                 });
             }
             let node = tree.add(child, parent)?;

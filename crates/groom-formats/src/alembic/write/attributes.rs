@@ -8,7 +8,7 @@ use groom::{Attribute, Domain, FloatView, Values, names};
 use ogawa::{ArchiveWriter, Compound, DataType, OgawaError, Property, StoredSample};
 
 use super::curves::CurvesWriter;
-use super::spread;
+use super::{guides, spread};
 use crate::alembic::schema;
 use crate::{Dialect, Format, Warning};
 
@@ -32,10 +32,15 @@ pub(super) fn write<W: Write + Seek>(
     let standard = schema::PARAMETERS.iter().filter(|(name, _)| groom.attribute(name).is_some());
     let mut used: BTreeSet<String> = standard.map(|(_, written)| (*written).to_owned()).collect();
     used.insert(schema::GROOM_WIDTH.to_owned());
+    let closest = guides::closest(groom);
+    if closest.is_some() {
+        used.extend([schema::CLOSEST_GUIDES, schema::GUIDE_WEIGHTS, schema::GROOM_ID].map(str::to_owned));
+    }
     for (name, attribute) in groom.attributes() {
         match name {
             names::RADIUS => width(curves, attribute, &mut parameters)?,
             names::VELOCITY if attribute.domain == Domain::Vertex => {}
+            names::CLOSEST_GUIDE if closest.is_some() => {}
             _ => {
                 let standard = schema::PARAMETERS.iter().find(|(other, _)| *other == name);
                 let written = match standard {
@@ -45,6 +50,9 @@ pub(super) fn write<W: Write + Seek>(
                 parameter(curves, name, &written, attribute, &mut parameters)?;
             }
         }
+    }
+    if let Some(ids) = closest {
+        guides::write(groom, ids, &mut curves.archive, &mut parameters.arbitrary)?;
     }
     Ok(parameters)
 }
@@ -113,7 +121,10 @@ fn parameter<W: Write + Seek>(
     } else {
         Cow::Borrowed(attribute)
     };
-    let (data_type, sample) = sample(&mut curves.archive, &attribute.values)?;
+    let (data_type, sample) = match guides::three(written, &attribute.values) {
+        Some(ids) => (schema::THREE_GUIDES, curves.archive.values(ids.as_flattened())?),
+        None => sample(&mut curves.archive, &attribute.values)?,
+    };
     parameters.arbitrary.push(geometry(written, data_type, attribute.domain, sample));
     if name == names::ROOT_UV && attribute.domain == Domain::Strand {
         parameters.native.push(geometry(schema::UV, data_type, attribute.domain, sample));
@@ -133,6 +144,6 @@ fn sample<W: Write + Seek>(
     })
 }
 
-fn geometry(name: &str, data_type: DataType, domain: Domain, sample: StoredSample) -> Property {
+pub(super) fn geometry(name: &str, data_type: DataType, domain: Domain, sample: StoredSample) -> Property {
     Property::array(name, data_type, schema::parameter(data_type, domain)).with(sample)
 }

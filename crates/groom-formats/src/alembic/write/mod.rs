@@ -2,6 +2,7 @@
 
 mod attributes;
 mod curves;
+mod guides;
 mod motion;
 mod space;
 mod spread;
