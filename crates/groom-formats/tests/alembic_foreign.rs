@@ -270,6 +270,13 @@ fn wraps_knots_and_orders() {
     assert!(open.positions().last().unwrap().distance(Vec3::from(BENT[3])) > 0.1);
     let lines = read(&one([2, 0, 2], |file| vec![array(file, ".orders", DataType::U8, "", &[2_u8])])).groom;
     assert_eq!(lines.positions(), BENT[..4].iter().map(|&p| Vec3::from(p)).collect::<Vec<_>>());
+    // Blender's Catmull-Rom curves say linear, or several orders and none of them; a basis left over from the
+    // library's own default bends no line.
+    let no_orders = |file: &mut File| vec![array::<u8>(file, ".orders", DataType::U8, "", &[])];
+    for (kind, bent) in [([1, 0, 3], true), ([2, 0, 3], true), ([1, 0, 1], false), ([2, 0, 0], false)] {
+        let points = read(&one(kind, no_orders)).groom.point_count();
+        assert_eq!(points > 4, bent, "{kind:?}: {points}");
+    }
     refused(
         &one([2, 0, 2], |file| vec![array(file, ".orders", DataType::U8, "", &[3_u8])]),
         "/hair.orders: found",

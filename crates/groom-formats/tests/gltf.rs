@@ -267,6 +267,19 @@ mod reading {
     }
 
     #[test]
+    fn shared_indices_without_end_take_no_time() {
+        // Segments without length make no strand and take no memory.
+        let primitives = vec![json!({"mode": 1, "attributes": {"POSITION": 0}, "indices": 1}); 2000];
+        let accessors = json!([
+            {"bufferView": 0, "componentType": 5126, "count": 2, "type": "VEC3"},
+            {"bufferView": 0, "componentType": 5121, "count": 36000, "type": "SCALAR"}
+        ]);
+        let document = document(json!([{"mesh": 0}]), primitives.into(), accessors, 36000);
+        let error = read(&glb(&document, &[0; 36000])).unwrap_err().to_string();
+        assert!(error.contains("expected at most 64 a byte of the file"), "{error}");
+    }
+
+    #[test]
     fn truncation_at_every_length_is_an_error() {
         let options = WriteOptions { all_attributes: true, quantize: Some(12), ..WriteOptions::default() };
         let bytes = written(&full_groom(), &options).0;

@@ -13,6 +13,9 @@ use crate::polylines::{Polylines, Shape, Wrap};
 const ORDERS: &str = ".orders";
 const KNOTS: &str = ".knots";
 
+/// The number of a basis.
+const CATMULL_ROM: u8 = 3;
+
 /// Curves and where their strands' points are.
 pub(super) struct Curves<'a> {
     pub(super) geometry: CompoundReader<'a>,
@@ -117,7 +120,8 @@ pub(super) fn required<'a>(
 ///
 /// Alembic says no more than a basis, and its programs do not agree on ends. Catmull-Rom curves go through
 /// all of their points, as in Blender. B-splines end before the outer ones, as in RenderMan, unless they
-/// bring knots that are clamped: then the curve reaches its ends.
+/// bring knots that are clamped: then the curve reaches its ends. Blender 5.0 calls its Catmull-Rom curves linear,
+/// and reads any curve by the basis alone; no other program gives lines that basis.
 fn shape(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<Shape, OgawaError> {
     let property = required(geometry, schema::KIND)?;
     let &[kind, wrap, basis, ..] = samples.held(&property)?.bytes() else {
@@ -125,8 +129,8 @@ fn shape(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<Shape, Ogaw
     };
     let cubic = match kind {
         0 => true,
-        1 => false,
-        2 => order(geometry, samples)? == 4,
+        1 => basis == CATMULL_ROM,
+        2 => order(geometry, samples)?.map_or(basis == CATMULL_ROM, |order| order == 4),
         kind => {
             return Err(wrong(&property, format!("type {kind}"), "0 cubic, 1 linear or 2 variable order"));
         }
@@ -135,7 +139,7 @@ fn shape(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<Shape, Ogaw
         (false, _) | (true, 0) => None,
         (true, 1) => Some(Basis::Bezier),
         (true, 2) => Some(Basis::Bspline),
-        (true, 3) => Some(Basis::CatmullRom),
+        (true, CATMULL_ROM) => Some(Basis::CatmullRom),
         (true, basis) => {
             let found = match basis {
                 4 => "hermite curves".into(),
@@ -169,15 +173,15 @@ fn has_clamped_knots(geometry: &CompoundReader<'_>, samples: &Samples) -> Result
     Ok(matches!(sample.to_f32()?[..], [_, second, third, ..] if second == third))
 }
 
-/// The one order of all curves, 2 or 4; without orders they are lines, as Blender has it.
-fn order(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<u8, OgawaError> {
+/// The one order of all curves, 2 or 4; `None` where there are no orders.
+fn order(geometry: &CompoundReader<'_>, samples: &Samples) -> Result<Option<u8>, OgawaError> {
     let Some(property) = geometry.find(ORDERS)?.filter(|orders| orders.sample_count() > 0) else {
-        return Ok(2);
+        return Ok(None);
     };
     let orders = samples.held(&property)?.bytes();
-    let first = orders.first().copied().unwrap_or(2);
+    let Some(&first) = orders.first() else { return Ok(None) };
     if matches!(first, 2 | 4) && orders.iter().all(|&order| order == first) {
-        return Ok(first);
+        return Ok(Some(first));
     }
     Err(wrong(&property, "curves of several or other orders".into(), "all 2 (lines) or all 4 (cubic)"))
 }

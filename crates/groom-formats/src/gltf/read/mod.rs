@@ -38,6 +38,9 @@ use columns::Columns;
 /// Bytes a groom may take whatever the file's size.
 const ALWAYS_ALLOWED: usize = 1 << 16;
 
+/// Indices and replaced values that are looked at, in bytes of the file: primitives may share them without end.
+const LOOKS: usize = 64;
+
 /// `folder` is where the document's other files are; a stream has none.
 pub(crate) fn read(
     bytes: &[u8],
@@ -106,6 +109,8 @@ struct Found {
     points: usize,
     /// Bytes the groom may still take.
     budget: usize,
+    /// Shared values that may still be looked at.
+    looks: usize,
 }
 
 impl Found {
@@ -118,6 +123,7 @@ impl Found {
             triangles: 0,
             points: 0,
             budget: file_bytes.saturating_mul(4).saturating_add(ALWAYS_ALLOWED),
+            looks: file_bytes.saturating_mul(LOOKS).saturating_add(ALWAYS_ALLOWED),
         }
     }
 
@@ -154,6 +160,16 @@ impl Found {
             found: format!("{points} more points of strands, which the file's other meshes have too"),
             expected: "strands of at most 4 times the file's bytes; write instances out one by one"
                 .to_owned(),
+        })?;
+        Ok(())
+    }
+
+    /// Takes time for looking at `values` that other primitives may look at too.
+    fn look(&mut self, values: usize, place: &str) -> Result<(), GltfError> {
+        self.looks = self.looks.checked_sub(values).ok_or_else(|| GltfError::Invalid {
+            place: place.to_owned(),
+            found: format!("{values} more values that other primitives share"),
+            expected: format!("at most {LOOKS} a byte of the file"),
         })?;
         Ok(())
     }

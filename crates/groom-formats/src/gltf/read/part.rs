@@ -2,7 +2,7 @@
 
 use glam::{DMat4, DVec3, Vec2, Vec3};
 use gltf::accessor::Dimensions;
-use gltf::{Primitive, Semantic};
+use gltf::{Accessor, Primitive, Semantic};
 use gltf_bytes::{Asset, Elements, GltfError};
 use groom::Values;
 
@@ -27,9 +27,19 @@ pub(super) fn add(
             expected: "one in every primitive of lines".to_owned(),
         });
     };
+    look_at_replaced(found, &accessor, &place)?;
     let positions = Elements::of(&accessor, &[Dimensions::Vec3], &asset.buffers)?;
     let indices = match primitive.indices() {
-        Some(accessor) => Some(Elements::open(&accessor, &asset.buffers)?.indices()?),
+        Some(accessor) => {
+            look_at_replaced(found, &accessor, &place)?;
+            let indices = Elements::open(&accessor, &asset.buffers)?;
+            found.look(indices.len(), &place)?;
+            let indices = indices.indices()?;
+            // Vertices between the first and the last are gone through.
+            let span = indices.iter().max().zip(indices.iter().min()).map_or(0, |(max, min)| max - min);
+            found.look(positions.len().min(span as usize), &place)?;
+            Some(indices)
+        }
         None => None,
     };
     let at = |vertex: u32| positions.map(std::iter::once(vertex as usize), |p: [f64; 3]| p).pop();
@@ -60,6 +70,7 @@ pub(super) fn add(
     let scale = world.map_or(1.0, |world| world.determinant().abs().cbrt());
     for (semantic, accessor) in primitive.attributes() {
         if semantic != Semantic::Positions {
+            look_at_replaced(found, &accessor, &place)?;
             let elements = Elements::open(&accessor, &asset.buffers)?;
             same_count(&elements, positions.len(), &semantic, &place)?;
             let column = Column { semantic, elements, world, scale };
@@ -67,6 +78,11 @@ pub(super) fn add(
         }
     }
     Ok(())
+}
+
+/// Sparse accessors are copied.
+fn look_at_replaced(found: &mut Found, accessor: &Accessor<'_>, place: &str) -> Result<(), GltfError> {
+    if accessor.sparse().is_some() { found.look(accessor.count(), place) } else { Ok(()) }
 }
 
 fn same_count(
