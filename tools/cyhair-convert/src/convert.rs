@@ -78,6 +78,12 @@ fn convert_still(path: &Path, output: &Path, format: Format, args: &Args) -> Res
 }
 
 fn convert_motion(moving: Motion<'_>, output: &Path, format: Format, args: &Args) -> Result<Done> {
+    if args.measuring.report.is_some() {
+        bail!(
+            "--report measures a groom that stands still, and {} moves; choose a frame by --time",
+            moving.name
+        );
+    }
     let mut done = Done::new(moving.name.clone(), moving.format, moving.bytes, output, format);
     done.tell(&moving.repairs, &moving.warnings, args.json)?;
     let had_ids = moving.had_ids;

@@ -2,15 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
 
-mod support;
-
 use std::io::Cursor;
 
+use crate::support::{from_bytes, full_groom, set};
 use glam::{Vec2, Vec3};
 use groom::{Domain, Groom, UpAxis, Values, names};
 use groom_formats::{Dialect, Format, FormatError, Warning, WriteOptions};
 use ogawa::{Archive, CompoundReader, DataType, ObjectReader, Pod, PropertyKind, PropertyReader};
-use support::{from_bytes, full_groom, set};
 
 fn written(groom: &Groom, dialect: Option<Dialect>) -> Vec<u8> {
     let mut file = Cursor::new(Vec::new());
@@ -259,7 +257,7 @@ fn names_are_made_fit_and_no_strand_is_an_error() {
     let mut groom = full_groom();
     set(&mut groom, "a/b", Domain::Groom, Values::Int(vec![1]));
     set(&mut groom, "groom_id", Domain::Groom, Values::Int(vec![2]));
-    let (_, warnings) = support::to_bytes(Format::Alembic, &groom).unwrap();
+    let (_, warnings) = crate::support::to_bytes(Format::Alembic, &groom).unwrap();
     let renamed = |name: &str, written: &str| Warning::AttributeRenamed {
         format: Format::Alembic,
         name: name.into(),
@@ -267,5 +265,5 @@ fn names_are_made_fit_and_no_strand_is_an_error() {
     };
     assert_eq!(warnings, [renamed("a/b", "a_b"), renamed("groom_id", "groom_id_2")]);
     let none = Groom::new(vec![0], vec![]).unwrap();
-    assert!(matches!(support::to_bytes(Format::Alembic, &none), Err(FormatError::Empty { .. })));
+    assert!(matches!(crate::support::to_bytes(Format::Alembic, &none), Err(FormatError::Empty { .. })));
 }

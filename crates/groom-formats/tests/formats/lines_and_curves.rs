@@ -2,14 +2,12 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::{any_groom, full_groom, offsets, to_bytes};
 use glam::Vec3;
 use groom::{Groom, UpAxis, names};
 use groom_formats::{Format, FormatError, Warning, WriteOptions};
 use proptest::prelude::*;
 use serde_json::Value;
-use support::{any_groom, full_groom, offsets, to_bytes};
 
 /// The document and the buffer of a `.glb`.
 fn chunks(glb: &[u8]) -> (Value, &[u8]) {

@@ -2,16 +2,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::lies::{change_everywhere, cut_everywhere, told, with_u32};
+use crate::support::{from_bytes, to_bytes};
 use glam::Vec3;
 use groom::{Domain, Values};
 use groom_formats::{Format, Warning};
 use proptest::prelude::*;
-use support::lies::{change_everywhere, cut_everywhere, told, with_u32};
-use support::{from_bytes, to_bytes};
 
-const LOCK: &[u8] = include_bytes!("golden/lock.bin");
+const LOCK: &[u8] = include_bytes!("../golden/lock.bin");
 
 proptest! {
     #[test]
@@ -25,7 +23,7 @@ fn the_layout_is_the_makers() {
     let loaded = from_bytes(Format::Ct2Hair, LOCK).unwrap();
     assert_eq!(loaded.warnings, [Warning::EmptyStrandsLeftOut { format: Format::Ct2Hair, strands: 1 }]);
     // The same points as in the .data file.
-    let data = from_bytes(Format::Data, include_bytes!("golden/lock.data")).unwrap().groom;
+    let data = from_bytes(Format::Data, include_bytes!("../golden/lock.data")).unwrap().groom;
     assert_eq!((loaded.groom.offsets(), loaded.groom.positions()), (data.offsets(), data.positions()));
     let tangent = loaded.groom.attribute("tangent").unwrap();
     assert_eq!((tangent.domain, &tangent.values), (Domain::Vertex, &Values::Vec3(vec![Vec3::NEG_Y; 5])));

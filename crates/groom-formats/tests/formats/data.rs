@@ -2,15 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::lies::{change_everywhere, cut_everywhere, told, with_u32};
+use crate::support::{any_groom, from_bytes, full_groom, to_bytes};
 use groom::{Attribute, UpAxis, Values, names};
 use groom_formats::{Format, FormatError, ReadOptions, Warning, read_from};
 use proptest::prelude::*;
-use support::lies::{change_everywhere, cut_everywhere, told, with_u32};
-use support::{any_groom, from_bytes, full_groom, to_bytes};
 
-const LOCK: &[u8] = include_bytes!("golden/lock.data");
+const LOCK: &[u8] = include_bytes!("../golden/lock.data");
 
 proptest! {
     #[test]

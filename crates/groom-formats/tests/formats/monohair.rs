@@ -2,14 +2,12 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::lies::{change_everywhere, cut_everywhere, told, with_u32};
+use crate::support::{any_groom, from_bytes, to_bytes};
 use groom_formats::{Format, FormatError, Warning};
 use proptest::prelude::*;
-use support::lies::{change_everywhere, cut_everywhere, told, with_u32};
-use support::{any_groom, from_bytes, to_bytes};
 
-const LOCK: &[u8] = include_bytes!("golden/monohair.hair");
+const LOCK: &[u8] = include_bytes!("../golden/monohair.hair");
 
 proptest! {
     #[test]
@@ -30,7 +28,7 @@ fn the_layout_is_the_makers() {
     // Asked for as what its name says.
     let loaded = from_bytes(Format::Hair, LOCK).unwrap();
     assert_eq!((loaded.warnings, loaded.hair), (vec![], None));
-    let data = from_bytes(Format::Data, include_bytes!("golden/lock.data")).unwrap().groom;
+    let data = from_bytes(Format::Data, include_bytes!("../golden/lock.data")).unwrap().groom;
     assert_eq!((loaded.groom.offsets(), loaded.groom.positions()), (data.offsets(), data.positions()));
     assert_eq!(from_bytes(Format::MonoHair, LOCK).unwrap().groom, loaded.groom);
 }

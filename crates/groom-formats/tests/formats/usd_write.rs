@@ -3,15 +3,13 @@
 #![allow(clippy::unwrap_used)] // helpers of tests
 #![cfg(all(feature = "usda", feature = "usdz"))]
 
-mod support;
-
 use std::path::Path;
 
+use crate::support::{any_groom, from_bytes, full_groom, offsets, to_bytes};
 use glam::Vec3;
 use groom::{Groom, names};
 use groom_formats::{Dialect, Format, FormatError, Frame, Warning, WriteOptions, write_animation};
 use proptest::prelude::*;
-use support::{any_groom, from_bytes, full_groom, offsets, to_bytes};
 
 const ENDINGS: [&str; 3] = ["usda", "usdc", "usdz"];
 
@@ -50,7 +48,7 @@ fn motion_is_sampled_and_the_rest_said_once() {
 fn phantom_points_lie_beyond_the_ends() {
     let points = vec![Vec3::ZERO, Vec3::new(1.0, 2.0, 0.5), Vec3::X, Vec3::Y];
     let mut groom = Groom::new(offsets(&[2, 2]), points).unwrap();
-    support::set(
+    crate::support::set(
         &mut groom,
         names::RADIUS,
         groom::Domain::Vertex,
@@ -144,7 +142,7 @@ fn velocities_of_a_still_do_not_stay_in_motion_without() {
     let folder = tempfile::tempdir().unwrap();
     let mut groom = full_groom();
     let velocities = groom::Values::Vec3(vec![Vec3::Z; 8]);
-    support::set(&mut groom, names::VELOCITY, groom::Domain::Vertex, velocities);
+    crate::support::set(&mut groom, names::VELOCITY, groom::Domain::Vertex, velocities);
     let still = String::from_utf8(to_bytes(Format::Usda, &groom).unwrap().0).unwrap();
     assert!(still.contains("vector3f[] velocities = [(0, 0, 1),"));
     assert!(!still.contains("primvars:velocity"));

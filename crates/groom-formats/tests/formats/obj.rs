@@ -2,14 +2,12 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::lies::told;
+use crate::support::{any_groom, from_bytes, full_groom, set, to_bytes};
 use glam::Vec3;
 use groom::{Domain, Groom, UpAxis, Values, names};
 use groom_formats::{Format, FormatError, ReadOptions, Warning, read_from};
 use proptest::prelude::*;
-use support::lies::told;
-use support::{any_groom, from_bytes, full_groom, set, to_bytes};
 
 fn read(text: &str) -> Groom {
     from_bytes(Format::Obj, text.as_bytes()).unwrap().groom

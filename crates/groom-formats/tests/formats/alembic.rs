@@ -2,15 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
 
-mod support;
-
 use std::path::Path;
 
+use crate::support::{any_groom, finite, from_bytes, full_groom, set};
 use glam::{Vec2, Vec3};
 use groom::{Domain, Groom, UpAxis, Values, names};
 use groom_formats::{Dialect, Format, Frame, ReadOptions, WriteOptions, write_animation};
 use proptest::prelude::*;
-use support::{any_groom, finite, from_bytes, full_groom, set};
 
 fn written(groom: &Groom, dialect: Option<Dialect>) -> Vec<u8> {
     let mut bytes = Vec::new();

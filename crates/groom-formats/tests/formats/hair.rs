@@ -2,13 +2,11 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::{any_groom, bits, finite, from_bytes, full_groom, offsets, radius, set, to_bytes};
 use cyhair::{HairFile, Header};
 use groom::{Domain, Groom, UpAxis, Values, names};
 use groom_formats::{Format, FormatError, ReadOptions, Warning, WriteOptions};
 use proptest::prelude::*;
-use support::{any_groom, bits, finite, from_bytes, full_groom, offsets, radius, set, to_bytes};
 
 /// Thickness that halves and doubles without a loss.
 fn thickness() -> impl Strategy<Value = f32> {

@@ -2,20 +2,18 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
 use std::io::Write;
 use std::path::Path;
 
+use crate::support::from_bytes;
+use crate::support::lies::{change_everywhere, cut_everywhere, told, with_u32};
 use glam::{Vec2, Vec3};
 use groom::{Domain, Groom, UpAxis, Values, names};
 use groom_formats::{Format, ReadOptions};
 use proptest::prelude::*;
-use support::from_bytes;
-use support::lies::{change_everywhere, cut_everywhere, told, with_u32};
 
-const V3: &[u8] = include_bytes!("golden/v3.tfx");
-const V4: &[u8] = include_bytes!("golden/v4.tfx");
+const V3: &[u8] = include_bytes!("../golden/v3.tfx");
+const V4: &[u8] = include_bytes!("../golden/v4.tfx");
 
 proptest! {
     #[test]

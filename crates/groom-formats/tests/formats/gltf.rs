@@ -3,14 +3,12 @@
 #![cfg(feature = "gltf")]
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::{any_groom, full_groom, offsets, set};
 use glam::{Vec2, Vec3};
 use groom::{Attribute, Domain, Groom, UpAxis, Values, names};
 use groom_formats::{Format, FormatError, Loaded, Mesh, ReadOptions, Warning, WriteOptions};
 use proptest::prelude::*;
 use serde_json::{Value, json};
-use support::{any_groom, full_groom, offsets, set};
 
 fn written(groom: &Groom, options: &WriteOptions) -> (Vec<u8>, Vec<Warning>) {
     let mut bytes = Vec::new();

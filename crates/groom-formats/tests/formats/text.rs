@@ -2,12 +2,10 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::{any_groom, bits, from_bytes, full_groom, offsets, to_bytes};
 use groom::{Attribute, Groom, UpAxis, Values, names};
 use groom_formats::{Format, FormatError, ReadOptions, Warning, text};
 use proptest::prelude::*;
-use support::{any_groom, bits, from_bytes, full_groom, offsets, to_bytes};
 
 proptest! {
     #[test]

@@ -2,20 +2,18 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
+use crate::support::lies::{change_everywhere, cut_everywhere, told};
+use crate::support::{any_groom, from_bytes, full_groom, set, to_bytes};
 use glam::Vec3;
 use groom::{Attribute, Domain, Groom, UpAxis, Values, names};
 use groom_formats::{Format, FormatError, Loaded, ReadOptions, Warning, read_from};
 use proptest::prelude::*;
-use support::lies::{change_everywhere, cut_everywhere, told};
-use support::{any_groom, from_bytes, full_groom, set, to_bytes};
 
-const ASCII: &[u8] = include_bytes!("golden/ascii.ply");
-const LITTLE: &[u8] = include_bytes!("golden/little.ply");
-const BIG: &[u8] = include_bytes!("golden/big.ply");
-const BARE: &[u8] = include_bytes!("golden/bare.ply");
-const EDGES: &[u8] = include_bytes!("golden/edges.ply");
+const ASCII: &[u8] = include_bytes!("../golden/ascii.ply");
+const LITTLE: &[u8] = include_bytes!("../golden/little.ply");
+const BIG: &[u8] = include_bytes!("../golden/big.ply");
+const BARE: &[u8] = include_bytes!("../golden/bare.ply");
+const EDGES: &[u8] = include_bytes!("../golden/edges.ply");
 
 proptest! {
     #[test]
@@ -23,7 +21,7 @@ proptest! {
         let (bytes, warnings) = to_bytes(Format::Ply, &groom).unwrap();
         prop_assert_eq!(warnings, vec![]);
         let back = from_bytes(Format::Ply, &bytes).unwrap();
-        prop_assert_eq!(support::bits(&back.groom), support::bits(&groom));
+        prop_assert_eq!(crate::support::bits(&back.groom), crate::support::bits(&groom));
         prop_assert_eq!(back.groom.offsets(), groom.offsets());
         prop_assert_eq!(to_bytes(Format::Ply, &back.groom).unwrap().0, bytes);
     }

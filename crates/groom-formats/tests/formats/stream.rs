@@ -2,8 +2,6 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
 use std::io::Write;
 use std::path::{Path, PathBuf};
 

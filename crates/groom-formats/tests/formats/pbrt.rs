@@ -2,15 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers and strategies of tests
 
-mod support;
-
 use std::collections::BTreeMap;
 
+use crate::support::{any_groom, full_groom, set};
 use glam::{DVec3, Vec3};
 use groom::{Attribute, Domain, Groom, Values, names};
 use groom_formats::{Format, FormatError, Look, Warning, WriteOptions, write_to};
 use proptest::prelude::*;
-use support::{any_groom, full_groom, set};
 
 /// One statement: its name, its kind and the words of each parameter.
 struct Statement {

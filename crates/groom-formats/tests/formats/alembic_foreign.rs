@@ -2,15 +2,13 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
 
-mod support;
-
 use std::io::Cursor;
 
+use crate::support::from_bytes;
 use glam::{DVec3, Vec2, Vec3};
 use groom::{Attribute, Domain, Values, names};
 use groom_formats::{Format, Loaded, ReadOptions, Warning};
 use ogawa::{ArchiveWriter, Compound, DataType, Metadata, Object, Pod, Property, TimeSampling};
-use support::from_bytes;
 
 type File = ArchiveWriter<Cursor<Vec<u8>>>;
 
