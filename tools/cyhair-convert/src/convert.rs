@@ -1,6 +1,7 @@
 //! `cyhair-convert IN OUT`.
 
 use std::path::Path;
+use std::rc::Rc;
 use std::time::Instant;
 
 use anyhow::{Result, bail};
@@ -72,7 +73,7 @@ fn convert_still(path: &Path, output: &Path, format: Format, args: &Args) -> Res
         groom.strand_count() as u64,
         groom.point_count() as u64,
         output_bytes,
-        &missed(lost, had_ids),
+        &missed(lost, had_ids, args),
     );
     Ok(done)
 }
@@ -86,15 +87,16 @@ fn convert_motion(moving: Motion<'_>, output: &Path, format: Format, args: &Args
     }
     let mut done = Done::new(moving.name.clone(), moving.format, moving.bytes, output, format);
     done.tell(&moving.repairs, &moving.warnings, args.json)?;
-    let had_ids = moving.had_ids;
+    let (had_ids, quantize_error) = (moving.had_ids, Rc::clone(&moving.quantize_error));
     let options = write_options(&moving.groom, args)?;
     let (groom, frames, lost, output_bytes) = moving.store(output, format, &options)?;
     done.frames = Some(frames);
+    done.quantize_error = quantize_error.get();
     done.finish(
         groom.strand_count() as u64,
         groom.point_count() as u64,
         output_bytes,
-        &missed(lost, had_ids),
+        &missed(lost, had_ids, args),
     );
     Ok(done)
 }
@@ -111,9 +113,13 @@ fn write_options(groom: &Groom, args: &Args) -> Result<WriteOptions> {
     })
 }
 
-/// Thinning out gives the strands numbers; nobody misses those.
-fn missed(lost: Vec<Warning>, had_ids: bool) -> Vec<Warning> {
-    let is_about_ids =
-        |warning: &Warning| matches!(warning, Warning::AttributeLeftOut { name, .. } if name == names::ID);
-    lost.into_iter().filter(|warning| had_ids || !is_about_ids(warning)).collect()
+/// What is worth saying: thinning out gives the strands numbers nobody misses, and what `--quantize` moved is
+/// told as a whole, not as what the writer rounded after it.
+fn missed(lost: Vec<Warning>, had_ids: bool, args: &Args) -> Vec<Warning> {
+    let is_news = |warning: &Warning| match warning {
+        Warning::AttributeLeftOut { name, .. } => had_ids || name != names::ID,
+        Warning::PositionsRounded { .. } => args.strands.quantize.is_none(),
+        _ => true,
+    };
+    lost.into_iter().filter(is_news).collect()
 }

@@ -27,6 +27,8 @@ pub(crate) struct Motion<'a> {
     pub(crate) repairs: Vec<String>,
     pub(crate) warnings: Vec<Warning>,
     pub(crate) had_ids: bool,
+    /// The farthest that quantizing moved a point, so far.
+    pub(crate) quantize_error: Rc<Cell<Option<f64>>>,
     /// The first frame, edited.
     pub(crate) groom: Rc<Groom>,
     /// Attributes whose values differ from the first frame's in a frame that was stored.
@@ -123,10 +125,13 @@ impl<'a> Motion<'a> {
         groom.remove_attribute(names::VELOCITY);
         let groom = Rc::new(groom);
         let changed = Rc::default();
-        let (like, differing) = (Rc::clone(&groom), Rc::clone(&changed));
+        let quantize_error = Rc::new(Cell::new(edits.quantize_error));
+        let (like, differing, moved) = (Rc::clone(&groom), Rc::clone(&changed), Rc::clone(&quantize_error));
         let frames = frames.map(move |frame| {
             let (time, name, groom) = frame?;
-            frame_of(time, &name, edits.apply(groom)?, &like, &differing)
+            let groom = edits.apply(groom)?;
+            moved.set(edits.quantize_error);
+            frame_of(time, &name, groom, &like, &differing)
         });
         Ok(Motion {
             name: path.display().to_string(),
@@ -136,6 +141,7 @@ impl<'a> Motion<'a> {
             warnings,
             had_ids,
             groom,
+            quantize_error,
             changed,
             frame_rate: args.writing.fps.or(frame_rate).unwrap_or(FRAME_RATE),
             frames: Box::new(frames),

@@ -88,6 +88,10 @@ pub(crate) fn print_done(done: &Done, is_json: bool) -> Result<()> {
         }));
     }
     say_all("warning", &done.warnings[done.told..])?;
+    if let Some(moved) = done.quantize_error {
+        let line = format!("--quantize moved points by up to {moved:.1e}, in the groom's units");
+        say_all("rounded", &[line])?;
+    }
     let frames = done.frames.map(|frames| format!("{frames} frames, ")).unwrap_or_default();
     writeln!(
         io::stderr().lock(),
