@@ -72,8 +72,9 @@ pub(crate) fn renamed(name: &str, written: &[String]) -> Option<Warning> {
 
 /// Whether 8 bits hold every colour as it is.
 pub(crate) fn colors_are_bytes(groom: &Groom) -> bool {
-    let exact =
-        |color: &glam::Vec3| color.to_array().iter().all(|&value| f32::from(byte(value)) / 255.0 == value);
+    // By bits: minus zero is not what comes back.
+    let is_held = |&value: &f32| (f32::from(byte(value)) / 255.0).to_bits() == value.to_bits();
+    let exact = |color: &glam::Vec3| color.to_array().iter().all(is_held);
     match groom.colors() {
         None => true,
         Some(groom::Vec3View::Constant(color)) => exact(&color),

@@ -15,6 +15,15 @@ const BIG: &[u8] = include_bytes!("../golden/big.ply");
 const BARE: &[u8] = include_bytes!("../golden/bare.ply");
 const EDGES: &[u8] = include_bytes!("../golden/edges.ply");
 
+#[test]
+fn minus_zero_is_a_colour_of_its_own() {
+    let mut groom = Groom::new(vec![0, 2], vec![Vec3::ZERO, Vec3::X]).unwrap();
+    set(&mut groom, names::COLOR, Domain::Vertex, Values::Vec3(vec![Vec3::new(-0.0, 1.0, 0.0), Vec3::ONE]));
+    let (bytes, _) = to_bytes(Format::Ply, &groom).unwrap();
+    let back = from_bytes(Format::Ply, &bytes).unwrap().groom;
+    assert_eq!(crate::support::bits(&back), crate::support::bits(&groom));
+}
+
 proptest! {
     #[test]
     fn a_groom_comes_back_whole(groom in any_groom()) {
