@@ -103,12 +103,6 @@ impl<'a, W: Write> PlyWriter<'a, W> {
         written.map_err(|e| FormatError::io(self.file, e))
     }
 
-    /// Ends a plain file.
-    #[allow(dead_code)] // pairs of formats that stream
-    pub(crate) fn finish(self) -> Result<(), FormatError> {
-        self.finish_with(|_, _| {}, &[])
-    }
-
     /// Ends the file; `rest` appends what the layout has behind `nsegs` of a strand, `whole` is the groom's row.
     pub(crate) fn finish_with(
         mut self,
