@@ -9,7 +9,7 @@ use serde_json::Value;
 
 /// Every crate, low to high, with what it may know of the house. A new arrow is added here and in
 /// ARCHITECTURE.md, or not at all.
-const ARROWS: [(&str, &[&str]); 16] = [
+const ARROWS: [(&str, &[&str]); 19] = [
     ("cyhair", &[]),
     ("groom", &[]),
     ("whole-file", &[]),
@@ -20,14 +20,29 @@ const ARROWS: [(&str, &[&str]); 16] = [
     ("usd-layer", &[]),
     ("ogawa", &[]),
     ("gltf-bytes", &[]),
+    ("medulla-tables", &["fibre-scattering", "whole-file"]),
+    ("fibre-material", &["fibre-scattering", "groom"]),
+    ("fibre-verification", &["error-report", "fibre-material", "fibre-scattering", "medulla-tables"]),
     ("moving-mesh", &["gltf-bytes"]),
     ("groom-samples", &["groom"]),
     ("groom-formats", &["cyhair", "gltf-bytes", "groom", "ogawa", "usd-layer", "whole-file"]),
-    ("hair-render", &["fibre-scattering", "groom", "moving-mesh", "strand-tracing", "whole-file"]),
+    (
+        "hair-render",
+        &[
+            "fibre-material",
+            "fibre-scattering",
+            "groom",
+            "medulla-tables",
+            "moving-mesh",
+            "strand-tracing",
+            "whole-file",
+        ],
+    ),
     (
         "turntable",
         &[
             "error-report",
+            "fibre-material",
             "groom",
             "groom-formats",
             "groom-samples",

@@ -6,7 +6,7 @@ use crate::error::ScatteringError;
 use crate::fibre::{Fibre, Hit};
 use crate::lobe::{Lobe, LobeValues};
 use crate::parameters::HairParameters;
-use crate::real::four;
+use crate::sample::FibreSample;
 
 /// A fibre's material, with everything worked out that depends on neither direction nor offset.
 #[derive(Debug, Clone, Copy)]
@@ -48,28 +48,6 @@ pub struct HairScatter {
     hit: Hit<f32>,
 }
 
-/// A direction drawn by [`HairScatter::sample`].
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct HairSample {
-    /// The unit direction drawn, away from the fibre, in the fibre frame.
-    pub wi: Vec3,
-    /// What [`HairScatter::evaluate`] returns for `wi`: all lobes, not only the one drawn.
-    pub values: LobeValues,
-    /// What [`HairScatter::pdf`] returns for `wi`; positive and finite.
-    pub pdf: f32,
-    /// The lobe the direction was drawn from.
-    pub lobe: Lobe,
-}
-
-impl HairSample {
-    /// Value over pdf, which no channel of a fibre with unit lobe weights has above 1 (but for
-    /// rounding): what a path's throughput is multiplied by.
-    #[must_use]
-    pub fn weight(&self) -> Vec3 {
-        self.values.sum() / self.pdf
-    }
-}
-
 impl HairScatter {
     /// f cos(theta_i) of each lobe for light from the unit direction `wi` (fibre frame, away from
     /// the fibre). The cosine is that against the fibre's normal plane; the caller multiplies by no
@@ -89,7 +67,7 @@ impl HairScatter {
     #[must_use]
     pub fn evaluate_with_pdf(&self, wi: Vec3) -> (LobeValues, f32) {
         let (values, pdf) = self.hit.evaluate_with_pdf(wi.to_array());
-        (LobeValues(four(|p| Vec3::from_array(values[p]))), pdf)
+        (LobeValues(values.map(Vec3::from_array)), pdf)
     }
 
     /// Draws a direction from four uniform numbers in [0, 1): the first picks the lobe, the next
@@ -97,19 +75,19 @@ impl HairScatter {
     ///
     /// `None` where the fibre swallows all light, or for the rare draw whose pdf rounds to 0.
     #[must_use]
-    pub fn sample(&self, u: [f32; 4]) -> Option<HairSample> {
+    pub fn sample(&self, u: [f32; 4]) -> Option<FibreSample> {
         let (wi, p) = self.hit.sample_direction(u)?;
         let wi = Vec3::from_array(wi);
         // Evaluated at the direction as rounded, so that a sample and a later evaluation of it
         // agree to the bit, however narrow the lobe.
         let (values, pdf) = self.evaluate_with_pdf(wi);
-        (pdf > 0.0 && pdf.is_finite()).then_some(HairSample { wi, values, pdf, lobe: Lobe::ALL[p] })
+        (pdf > 0.0 && pdf.is_finite()).then_some(FibreSample { wi, values, pdf, lobe: Lobe::ALL[p] })
     }
 
     /// The share of light from any one direction that each lobe scatters, times its weight: the
     /// attenuations A_p. With unit weights they sum to at most 1, and to 1 without absorption.
     #[must_use]
-    pub fn albedo(&self) -> [Vec3; 4] {
-        self.hit.attenuations.map(Vec3::from_array)
+    pub fn albedo(&self) -> [Vec3; 5] {
+        self.hit.attenuations().map(Vec3::from_array)
     }
 }

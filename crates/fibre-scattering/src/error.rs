@@ -3,6 +3,19 @@
 /// Why a fibre was refused. Every variant names the parameter and what was found.
 #[derive(Debug, Clone, Copy, PartialEq, thiserror::Error)]
 pub enum ScatteringError {
+    /// A parameter is outside its range, or NaN.
+    #[error("{name} must lie in {range}, found {found}")]
+    OutOfRange {
+        /// The parameter.
+        name: &'static str,
+        /// The value found.
+        found: f32,
+        /// Where it must lie.
+        range: &'static str,
+    },
+    /// A medulla that scatters came without its table, or with that of another material.
+    #[error("the medulla's table is missing or was made for other parameters")]
+    Table,
     /// A roughness is outside (0, 1].
     #[error("{name} must lie in (0, 1], found {found}")]
     Roughness {

@@ -17,7 +17,7 @@ const RESIDUAL: usize = 3;
 pub(crate) struct Fibre<T> {
     eta2_minus_1: T,
     pub sigma_a: [T; 3],
-    lobe_weights: [T; 4],
+    lobe_weights: [T; 5],
     /// Sine and cosine of the tilt each lobe gives the outgoing inclination.
     tilts: [(T, T); 4],
     spread: Spread<T>,
@@ -151,14 +151,20 @@ impl<T: Real> Hit<T> {
 
     /// f cos(theta_i) per lobe and channel, and the density over solid angle.
     #[inline]
-    pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 4], T) {
+    pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 5], T) {
         let densities = self.densities(wi);
-        let values = four(|p| {
+        let value = |p: usize| {
             let [red, green, blue] = self.attenuations[p];
             let density = densities[p];
             [red * density, green * density, blue * density]
-        });
-        (values, self.mixed(&densities))
+        };
+        ([value(0), value(1), value(2), value(3), [T::ZERO; 3]], self.mixed(&densities))
+    }
+
+    /// The share each lobe scatters; nothing in the lobe of the medulla.
+    pub fn attenuations(&self) -> [[T; 3]; 5] {
+        let [r, tt, trt, residual] = self.attenuations;
+        [r, tt, trt, residual, [T::ZERO; 3]]
     }
 
     /// The density over solid angle alone.

@@ -1,7 +1,7 @@
 //! Hair scattering after Chiang et al. 2016: evaluate, sample, pdf, albedo.
 //!
 //! [`HairParameters`] make a [`HairBcsdf`], once per material; [`HairBcsdf::at`] makes a
-//! [`HairScatter`] of it, once per hit; that evaluates and draws directions. The four [`Lobe`]s
+//! [`HairScatter`] of it, once per hit; that evaluates and draws directions. The five [`Lobe`]s
 //! stay apart all the way, for passes. Scenes, rays and threads are not known here.
 //!
 //! ```
@@ -63,16 +63,28 @@ mod bcsdf;
 mod bessel;
 mod error;
 mod exponential;
+mod far_field;
 mod fibre;
+mod fibre_bcsdf;
+mod fur;
 mod lobe;
 mod longitudinal;
+mod medulla;
+mod medulla_table;
 mod parameters;
 mod real;
 mod reference;
+mod sample;
 
 pub use absorption::{absorption_from_color, absorption_from_melanin, absorption_from_pigments};
-pub use bcsdf::{HairBcsdf, HairSample, HairScatter};
+pub use bcsdf::{HairBcsdf, HairScatter};
 pub use error::ScatteringError;
+pub use far_field::{FarFieldBcsdf, FarFieldScatter};
+pub use fibre_bcsdf::{FibreBcsdf, FibreScatter};
+pub use fur::{FurBcsdf, FurScatter};
 pub use lobe::{Lobe, LobeValues};
-pub use parameters::HairParameters;
+pub use medulla::{Absorption, FurParameters, Medulla};
+pub use medulla_table::{MedullaKey, MedullaTable};
+pub use parameters::{HairParameters, RoughnessScales, WaterFilm};
 pub use reference::{ReferenceBcsdf, ReferenceScatter};
+pub use sample::FibreSample;

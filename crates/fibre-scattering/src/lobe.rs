@@ -1,4 +1,4 @@
-//! The four ways light leaves a fibre, and values kept apart by them.
+//! The five ways light leaves a fibre, and values kept apart by them.
 
 use std::ops::{Index, Mul};
 
@@ -15,40 +15,43 @@ pub enum Lobe {
     Trt = 2,
     /// Reflected twice or more inside: all that the first three leave over.
     Residual = 3,
+    /// Scattered at least once inside the medulla; hair without a medulla has none.
+    Scattered = 4,
 }
 
 impl Lobe {
-    /// All lobes, in the order of every array of four in this crate.
-    pub const ALL: [Lobe; 4] = [Lobe::R, Lobe::Tt, Lobe::Trt, Lobe::Residual];
+    /// All lobes, in the order of every array of five in this crate.
+    pub const ALL: [Lobe; 5] = [Lobe::R, Lobe::Tt, Lobe::Trt, Lobe::Residual, Lobe::Scattered];
 
     /// Position in [`Lobe::ALL`].
     pub const fn index(self) -> usize {
         self as usize
     }
 
-    /// The short name used for passes: `R`, `TT`, `TRT` or `residual`.
+    /// The short name used for passes: `R`, `TT`, `TRT`, `residual` or `scattered`.
     pub const fn name(self) -> &'static str {
         match self {
             Lobe::R => "R",
             Lobe::Tt => "TT",
             Lobe::Trt => "TRT",
             Lobe::Residual => "residual",
+            Lobe::Scattered => "scattered",
         }
     }
 }
 
 /// One RGB value per lobe, in the order of [`Lobe::ALL`].
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct LobeValues(pub [Vec3; 4]);
+pub struct LobeValues(pub [Vec3; 5]);
 
 impl LobeValues {
     /// No light in any lobe.
-    pub const ZERO: LobeValues = LobeValues([Vec3::ZERO; 4]);
+    pub const ZERO: LobeValues = LobeValues([Vec3::ZERO; 5]);
 
     /// All lobes together.
     #[must_use]
     pub fn sum(&self) -> Vec3 {
-        self.0[0] + self.0[1] + self.0[2] + self.0[3]
+        self.0[0] + self.0[1] + self.0[2] + self.0[3] + self.0[4]
     }
 }
 

@@ -30,7 +30,50 @@ pub struct HairParameters {
     pub sigma_a: Vec3,
     /// Look development: what each lobe is multiplied by (1 is physical); at least 0. The order is
     /// that of [`Lobe::ALL`](crate::Lobe::ALL).
-    pub lobe_weights: [f32; 4],
+    pub lobe_weights: [f32; 5],
+    /// How much rougher TT and TRT are than R, along the fibre.
+    pub roughness_scales: RoughnessScales,
+    /// Layers of cuticle scales, as Yan et al. 2017 count them; `None`, the bare surface, is Fresnel's
+    /// reflectance itself.
+    pub cuticle_layers: Option<f32>,
+    /// A film of water over the fibre; `None` for dry hair.
+    pub film: Option<WaterFilm>,
+    /// Smaller over larger axis of an elliptical cross-section, in (0, 1]; 1 is round. The larger axis
+    /// lies along y of the fibre's frame.
+    pub aspect: f32,
+}
+
+/// Factors on the longitudinal roughness of R (its deviation, not its variance) that give TT's and TRT's:
+/// `scale_TT` and `scale_TRT` of MaterialX.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct RoughnessScales {
+    /// Of TT; above 0, at most 8.
+    pub tt: f32,
+    /// Of TRT and the residual; above 0, at most 8.
+    pub trt: f32,
+}
+
+impl Default for RoughnessScales {
+    /// 0.5 and 2: Marschner et al. 2003.
+    fn default() -> Self {
+        RoughnessScales { tt: 0.5, trt: 2.0 }
+    }
+}
+
+/// A film of water, thin beside the fibre.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct WaterFilm {
+    /// Index of refraction of the film over that of air, in [1.0001, 3].
+    pub eta: f32,
+    /// Roughness of its surface, in the measure of `beta_m`.
+    pub roughness: f32,
+}
+
+impl Default for WaterFilm {
+    /// Water: 1.33, roughness 0.1.
+    fn default() -> Self {
+        WaterFilm { eta: 1.33, roughness: 0.1 }
+    }
 }
 
 impl Default for HairParameters {
@@ -42,7 +85,11 @@ impl Default for HairParameters {
             alpha: 2.0_f32.to_radians(),
             eta: 1.55,
             sigma_a: Vec3::ZERO,
-            lobe_weights: [1.0; 4],
+            lobe_weights: [1.0; 5],
+            roughness_scales: RoughnessScales::default(),
+            cuticle_layers: None,
+            film: None,
+            aspect: 1.0,
         }
     }
 }

@@ -37,7 +37,7 @@ pub struct ReferenceScatter {
 impl ReferenceScatter {
     /// f cos(theta_i) of each lobe, and the density per steradian.
     #[must_use]
-    pub fn evaluate_with_pdf(&self, wi: [f64; 3]) -> ([[f64; 3]; 4], f64) {
+    pub fn evaluate_with_pdf(&self, wi: [f64; 3]) -> ([[f64; 3]; 5], f64) {
         self.hit.evaluate_with_pdf(wi)
     }
 
@@ -49,7 +49,7 @@ impl ReferenceScatter {
 
     /// The attenuations A_p, times the lobe weights.
     #[must_use]
-    pub fn albedo(&self) -> [[f64; 3]; 4] {
-        self.hit.attenuations
+    pub fn albedo(&self) -> [[f64; 3]; 5] {
+        self.hit.attenuations()
     }
 }

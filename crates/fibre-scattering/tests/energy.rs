@@ -138,7 +138,7 @@ fn lobe_weights_multiply_their_lobe_alone() {
     let wo = support::single(PLAIN.wo());
     let wi = support::single(support::direction(-0.3, 2.0));
     let plain = HairBcsdf::new(&parameters).unwrap().at(wo, 0.3).evaluate(wi);
-    let weighted = HairParameters { lobe_weights: [0.5, 0.0, 2.0, 1.0], ..parameters };
+    let weighted = HairParameters { lobe_weights: [0.5, 0.0, 2.0, 1.0, 1.0], ..parameters };
     let scatter = HairBcsdf::new(&weighted).unwrap().at(wo, 0.3);
     let found = scatter.evaluate(wi);
     for (p, weight) in weighted.lobe_weights.into_iter().enumerate() {
@@ -149,7 +149,7 @@ fn lobe_weights_multiply_their_lobe_alone() {
         let sample = scatter.sample(random.four()).unwrap();
         assert_ne!(sample.lobe, fibre_scattering::Lobe::Tt);
     }
-    let none = HairParameters { lobe_weights: [0.0; 4], ..parameters };
+    let none = HairParameters { lobe_weights: [0.0; 5], ..parameters };
     let scatter = HairBcsdf::new(&none).unwrap().at(wo, 0.3);
     assert_eq!(scatter.sample([0.5; 4]), None);
     assert_eq!(scatter.pdf(wi), 0.0);

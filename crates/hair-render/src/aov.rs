@@ -1,6 +1,6 @@
 //! The passes a picture can be taken apart into.
 
-/// One pass. The six light passes add up to the beauty.
+/// One pass. The seven light passes add up to the beauty.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub enum Aov {
     /// Light whose first scattering seen by the camera was reflection off a fibre's surface.
@@ -11,6 +11,8 @@ pub enum Aov {
     Trt,
     /// ... two and more internal reflections.
     Residual,
+    /// ... scattering in the medulla.
+    Scattered,
     /// ... reflection off a mesh.
     Surface,
     /// The environment seen directly (black when the background is transparent).
@@ -19,7 +21,8 @@ pub enum Aov {
 
 impl Aov {
     /// All of them, in the order they are stored.
-    pub const ALL: [Aov; 6] = [Aov::R, Aov::Tt, Aov::Trt, Aov::Residual, Aov::Surface, Aov::Background];
+    pub const ALL: [Aov; 7] =
+        [Aov::R, Aov::Tt, Aov::Trt, Aov::Residual, Aov::Scattered, Aov::Surface, Aov::Background];
 
     /// The layer's name in files and on the command line.
     #[must_use]
@@ -29,6 +32,7 @@ impl Aov {
             Aov::Tt => "TT",
             Aov::Trt => "TRT",
             Aov::Residual => "residual",
+            Aov::Scattered => "scattered",
             Aov::Surface => "surface",
             Aov::Background => "background",
         }

@@ -1,40 +1,11 @@
 //! What a scene is made of, before anything is built from it.
 
-use fibre_scattering::HairParameters;
+use fibre_material::Material;
 use glam::Vec3;
 use groom::Groom;
 use moving_mesh::TriangleMesh;
 
 use crate::{AreaLight, Environment};
-
-/// Where the absorption of the fibres comes from.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum HairColor {
-    /// The groom's `color` attribute through Chiang's fit, per groom, strand or vertex; the colour
-    /// given here where the groom has none.
-    Groom {
-        /// Linear Rec. 709, used when the groom has no `color`.
-        fallback: Vec3,
-    },
-    /// One colour, linear Rec. 709 in 0..1, through Chiang's fit: the albedo of a thick assembly.
-    Color(Vec3),
-    /// Melanin concentration (0..1) and redness (0..1).
-    Melanin {
-        /// How much pigment, 0 (white) .. 1 (black).
-        concentration: f32,
-        /// Share of pheomelanin, 0 .. 1.
-        redness: f32,
-    },
-    /// Absorption per fibre radius, at least 0, as it is in `HairParameters::sigma_a`.
-    Absorption(Vec3),
-}
-
-impl Default for HairColor {
-    /// The groom's own colour; a light brown where it has none.
-    fn default() -> Self {
-        HairColor::Groom { fallback: Vec3::new(0.42, 0.24, 0.12) }
-    }
-}
 
 /// What the groom's `transparency` attribute does to light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -50,10 +21,8 @@ pub enum Transparency {
 /// How the strands of a groom scatter light.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct HairMaterial {
-    /// Roughness, tilt, refractive index and lobe weights; its `sigma_a` is replaced by `color`.
-    pub parameters: HairParameters,
-    /// Where the absorption comes from.
-    pub color: HairColor,
+    /// Colour, roughness, medulla, variation.
+    pub fibre: Material,
     /// What the groom's transparency does.
     pub transparency: Transparency,
 }

@@ -59,6 +59,24 @@ pub enum RenderError {
         #[source]
         source: fibre_scattering::ScatteringError,
     },
+    /// The material of a groom is out of its range.
+    #[error("hair object {object}: {source}")]
+    Material {
+        /// Index into the scene's hair.
+        object: usize,
+        /// What is wrong with it.
+        #[source]
+        source: fibre_material::MaterialError,
+    },
+    /// The table of a fur material could not be had.
+    #[error("hair object {object}: {source}")]
+    Table {
+        /// Index into the scene's hair.
+        object: usize,
+        /// Why not.
+        #[source]
+        source: medulla_tables::TableError,
+    },
     /// The geometry cannot be traced.
     #[error(transparent)]
     Tracing(#[from] strand_tracing::TracingError),

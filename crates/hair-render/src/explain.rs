@@ -53,7 +53,7 @@ fn light(description: &SceneDescription, list: &mut List) {
 
 fn hair(index: usize, object: &HairObject, list: &mut List) {
     let color = object.groom.attribute(names::COLOR);
-    let constant = !matches!(object.material.color, HairColor::Groom { .. })
+    let constant = !matches!(object.material.fibre.color, HairColor::Groom { .. })
         || color.is_none_or(|c| c.domain == Domain::Groom);
     if constant {
         let bytes = 12 * object.groom.point_count();
@@ -69,7 +69,8 @@ fn hair(index: usize, object: &HairObject, list: &mut List) {
             "fibres already let light through by refraction; ask for it to be obeyed",
         );
     }
-    for (lobe, weight) in fibre_scattering::Lobe::ALL.into_iter().zip(object.material.parameters.lobe_weights)
+    for (lobe, weight) in
+        fibre_scattering::Lobe::ALL.into_iter().zip(object.material.fibre.parameters.lobe_weights)
     {
         if weight == 0.0 {
             list.add(
@@ -109,7 +110,7 @@ mod tests {
         let mut groom = groom::Groom::new(vec![0, 2], vec![Vec3::ZERO, Vec3::Y]).unwrap();
         groom.set_attribute(names::TRANSPARENCY, Attribute::constant_float(0.3)).unwrap();
         let mut material = HairMaterial::default();
-        material.parameters.lobe_weights[3] = 0.0;
+        material.fibre.parameters.lobe_weights[3] = 0.0;
         let mut description = SceneDescription {
             hair: vec![HairObject { groom, material }],
             environment: Some(Environment::constant(Vec3::ONE).unwrap()),

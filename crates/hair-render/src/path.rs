@@ -8,10 +8,11 @@ use crate::sampler::Sampler;
 use crate::surface::SurfaceHit;
 use crate::{Background, LightSampling, RenderSettings, Scene};
 
-/// Passes a sample is kept apart by: the four lobes, surface, background (the order of `Aov::ALL`).
-pub(crate) const PARTS: usize = 6;
-const SURFACE: usize = 4;
-const BACKGROUND: usize = 5;
+/// Passes a sample is kept apart by: the five lobes, surface, background (the order of `Aov::ALL`).
+pub(crate) const PARTS: usize = 7;
+const LOBES: usize = 5;
+const SURFACE: usize = LOBES;
+const BACKGROUND: usize = LOBES + 1;
 
 /// What one camera path found.
 #[derive(Clone, Copy, Debug, Default)]
@@ -37,16 +38,21 @@ pub(crate) struct PathTracer<'a> {
 }
 
 /// What a ray met, ready to scatter.
-enum Vertex {
-    Fibre(Box<FibreHit>),
+enum Vertex<'a> {
+    Fibre(Box<FibreHit<'a>>),
     Surface(SurfaceHit),
 }
 
 /// A scattering value: a lobe each for a fibre, the first entry alone for a surface.
-type Values = [Vec3; 4];
+type Values = [Vec3; LOBES];
 
 fn sum(values: &Values) -> Vec3 {
-    values[0] + values[1] + values[2] + values[3]
+    values[0] + values[1] + values[2] + values[3] + values[4]
+}
+
+/// A surface's value, in the first place.
+fn only(value: Vec3) -> Values {
+    [value, Vec3::ZERO, Vec3::ZERO, Vec3::ZERO, Vec3::ZERO]
 }
 
 /// Places on lights looked at from a fibre before one is chosen. Under soft boxes four take a third off the
@@ -92,7 +98,7 @@ impl<'a> PathTracer<'a> {
         light.alpha = 1.0;
         let (first, values) = self.scatter_on(hit, direction, sampler);
         match first {
-            FirstKind::Fibre => light.parts[..4].copy_from_slice(&values),
+            FirstKind::Fibre => light.parts[..LOBES].copy_from_slice(&values),
             FirstKind::Surface => light.parts[SURFACE] = values[0],
         }
         light
@@ -109,8 +115,8 @@ impl<'a> PathTracer<'a> {
     ) -> (FirstKind, Values) {
         let (mut hit, mut direction) = (first_hit, first_direction);
         let mut kind = FirstKind::Surface;
-        let mut direct: Values = [Vec3::ZERO; 4];
-        let mut weights: Values = [Vec3::ZERO; 4];
+        let mut direct: Values = [Vec3::ZERO; LOBES];
+        let mut weights: Values = [Vec3::ZERO; LOBES];
         let mut later = Vec3::ZERO;
         // Relative to the first scattering, whose weight `first_weight` holds.
         let mut throughput = Vec3::ONE;
@@ -163,11 +169,11 @@ impl<'a> PathTracer<'a> {
         (kind, total)
     }
 
-    fn vertex(&self, hit: &Hit, toward: Vec3) -> Vertex {
+    fn vertex(&self, hit: &Hit, toward: Vec3) -> Vertex<'a> {
         match (hit.kind, hit.primitive) {
             (HitKind::Segment { tangent, h, .. }, Primitive::Segment { object, .. }) => {
                 let material = self.scene.fibres[object as usize].material(hit);
-                Vertex::Fibre(Box::new(FibreHit::new(&material, tangent, h, toward)))
+                Vertex::Fibre(Box::new(FibreHit::new(material, tangent, h, toward)))
             }
             (_, Primitive::Triangle { object, .. }) => {
                 Vertex::Surface(self.scene.surfaces[object as usize].at(hit, toward))
@@ -184,7 +190,7 @@ impl<'a> PathTracer<'a> {
     /// function is cheap beside the one shadow ray that is then traced.
     fn next_event(
         &mut self,
-        vertex: &Vertex,
+        vertex: &Vertex<'_>,
         start: Vec3,
         leaving: Primitive,
         numbers: [f32; 3],
@@ -216,7 +222,7 @@ impl<'a> PathTracer<'a> {
     /// How many places on lights are looked at before one is chosen. A fibre's lobes are narrow and cross
     /// the lights anywhere; a matte surface takes light much as it comes, and light that is the same from
     /// everywhere leaves nothing to choose.
-    fn candidates(&self, vertex: &Vertex) -> u32 {
+    fn candidates(&self, vertex: &Vertex<'_>) -> u32 {
         match vertex {
             Vertex::Fibre(_) if !self.scene.lights.are_even() => FIBRE_CANDIDATES,
             _ => 1,
@@ -226,7 +232,7 @@ impl<'a> PathTracer<'a> {
     /// A place on a light: what it sends along the path when nothing hides it, and that as one number.
     fn candidate(
         &self,
-        vertex: &Vertex,
+        vertex: &Vertex<'_>,
         start: Vec3,
         numbers: [f32; 3],
         count: u32,
@@ -311,7 +317,7 @@ struct Candidate {
     values: Values,
 }
 
-impl Vertex {
+impl Vertex<'_> {
     fn kind(&self) -> FirstKind {
         match self {
             Vertex::Fibre(_) => FirstKind::Fibre,
@@ -339,7 +345,7 @@ impl Vertex {
             }
             Vertex::Surface(surface) => {
                 let (value, pdf) = surface.evaluate(wi);
-                ([value, Vec3::ZERO, Vec3::ZERO, Vec3::ZERO], pdf)
+                (only(value), pdf)
             }
         }
     }
@@ -353,7 +359,7 @@ impl Vertex {
             Vertex::Surface(surface) => {
                 let wi = surface.sample(numbers[0], numbers[1]);
                 let (value, pdf) = surface.evaluate(wi);
-                (pdf > 0.0).then_some((wi, [value, Vec3::ZERO, Vec3::ZERO, Vec3::ZERO], pdf))
+                (pdf > 0.0).then_some((wi, only(value), pdf))
             }
         }
     }

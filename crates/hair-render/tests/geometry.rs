@@ -21,11 +21,12 @@ fn mirror(groom: Groom) -> HairObject {
         beta_m: 0.02,
         beta_n: 0.02,
         alpha: 0.0,
-        lobe_weights: [1.0, 0.0, 0.0, 0.0],
+        lobe_weights: [1.0, 0.0, 0.0, 0.0, 0.0],
         ..Default::default()
     };
     let color = HairColor::Absorption(Vec3::ZERO);
-    HairObject { groom, material: HairMaterial { parameters, color, transparency: Transparency::Ignored } }
+    let fibre = Material { parameters, color, ..Default::default() };
+    HairObject { groom, material: HairMaterial { fibre, transparency: Transparency::Ignored } }
 }
 
 /// A fibre lit by one far, small light must glint where the law of reflection on its round surface says,

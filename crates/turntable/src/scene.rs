@@ -70,16 +70,16 @@ impl Stage {
 
 fn hair_material(source: &Material) -> HairMaterial {
     let mut material = HairMaterial::default();
-    material.parameters.beta_m = source.beta_m;
-    material.parameters.beta_n = source.beta_n;
-    material.parameters.alpha = source.alpha.to_radians();
-    material.parameters.eta = source.eta;
+    material.fibre.parameters.beta_m = source.beta_m;
+    material.fibre.parameters.beta_n = source.beta_n;
+    material.fibre.parameters.alpha = source.alpha.to_radians();
+    material.fibre.parameters.eta = source.eta;
     if let Some(color) = source.color {
-        material.color = HairColor::Color(Vec3::from_array(color));
+        material.fibre.color = HairColor::Color(Vec3::from_array(color));
     } else if let Some(concentration) = source.melanin {
-        material.color = HairColor::Melanin { concentration, redness: source.redness.unwrap_or(0.0) };
+        material.fibre.color = HairColor::Melanin { concentration, redness: source.redness.unwrap_or(0.0) };
     } else if let Some(absorption) = source.absorption {
-        material.color = HairColor::Absorption(Vec3::from_array(absorption));
+        material.fibre.color = HairColor::Absorption(Vec3::from_array(absorption));
     }
     material
 }

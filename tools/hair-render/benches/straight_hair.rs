@@ -26,7 +26,10 @@ fn cpu_seconds() -> Option<f64> {
 
 fn scene(path: &Path, sigma: Vec3) -> Scene {
     let groom = groom_formats::read(path, &ReadOptions::default()).unwrap().groom;
-    let material = HairMaterial { color: HairColor::Absorption(sigma), ..Default::default() };
+    let material = HairMaterial {
+        fibre: Material { color: HairColor::Absorption(sigma), ..Default::default() },
+        ..Default::default()
+    };
     Scene::build(SceneDescription {
         hair: vec![HairObject { groom, material }],
         environment: Some(Environment::constant(Vec3::ONE).unwrap()),

@@ -6,8 +6,8 @@ use glam::{DVec3, Vec3};
 use groom::UpAxis;
 use groom_formats::ReadOptions;
 use hair_render::{
-    AreaLight, Camera, Environment, HairColor, HairMaterial, HairObject, MeshObject, Scene, SceneDescription,
-    Transparency,
+    AreaLight, Camera, Environment, HairColor, HairMaterial, HairObject, Material, MeshObject, Scene,
+    SceneDescription, Transparency,
 };
 use moving_mesh::TriangleMesh;
 
@@ -89,7 +89,7 @@ fn material(fibre: &Fibre) -> HairMaterial {
         ..HairParameters::default()
     };
     let transparency = if fibre.use_transparency { Transparency::Stochastic } else { Transparency::Ignored };
-    HairMaterial { parameters, color, transparency }
+    HairMaterial { fibre: Material { parameters, color, ..Material::default() }, transparency }
 }
 
 fn environment(light: &Light) -> Result<Environment> {

@@ -83,7 +83,7 @@ impl Case {
         let scatter = self.single();
         move |theta, phi| {
             let values = scatter.evaluate(single(direction(theta, phi)));
-            values.0.map(|value| f64::from(value.x))
+            [0, 1, 2, 3].map(|p: usize| f64::from(values.0[p].x))
         }
     }
 
@@ -92,7 +92,7 @@ impl Case {
         let scatter = self.double();
         move |theta, phi| {
             let (values, _) = scatter.evaluate_with_pdf(direction(theta, phi));
-            values.map(|value| value[0])
+            [0, 1, 2, 3].map(|p: usize| values[p][0])
         }
     }
 }

@@ -27,7 +27,10 @@ pub fn tuft(count: u32, radius: f32) -> Groom {
 }
 
 pub fn hair(groom: Groom, color: HairColor) -> HairObject {
-    HairObject { groom, material: HairMaterial { color, ..Default::default() } }
+    HairObject {
+        groom,
+        material: HairMaterial { fibre: Material { color, ..Default::default() }, ..Default::default() },
+    }
 }
 
 pub fn blond() -> HairColor {

@@ -1,0 +1,97 @@
+//! The core of a fibre of fur: a cylinder that scatters.
+
+use glam::Vec3;
+
+use crate::error::ScatteringError;
+use crate::parameters::HairParameters;
+
+/// The medulla of Yan et al. 2017, "An Efficient and Practical Near and Far Field Fur Reflectance Model"
+/// (doi:10.1145/3072959.3073600). It shares the cortex's index of refraction, so that light bends at the
+/// fibre's surface only.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Medulla {
+    /// Radius of the medulla over that of the fibre (the medullary index), in [0, 0.99].
+    pub kappa: f32,
+    /// Scattering coefficient per fibre radius, in [0, 100].
+    pub sigma_s: f32,
+    /// Absorption of the medulla in red, green and blue, per fibre radius; at least 0.
+    pub sigma_a: Vec3,
+    /// Mean cosine of the Henyey-Greenstein phase function, in [-0.99, 0.99].
+    pub g: f32,
+}
+
+impl Medulla {
+    /// No medulla: hair.
+    pub const NONE: Medulla = Medulla { kappa: 0.0, sigma_s: 0.0, sigma_a: Vec3::ZERO, g: 0.0 };
+
+    /// Whether light is scattered inside: whether a [`MedullaTable`](crate::MedullaTable) is needed.
+    #[must_use]
+    pub fn scatters(&self) -> bool {
+        self.kappa > 0.0 && self.sigma_s > 0.0
+    }
+
+    /// Checks every bound stated on the fields.
+    ///
+    /// # Errors
+    /// The first bound broken, as a [`ScatteringError`]; NaN breaks every bound.
+    pub fn check(&self) -> Result<(), ScatteringError> {
+        let bounds = [
+            ("kappa", self.kappa, 0.0, 0.99, "[0, 0.99]"),
+            ("medulla sigma_s", self.sigma_s, 0.0, 100.0, "[0, 100]"),
+            ("g", self.g, -0.99, 0.99, "[-0.99, 0.99]"),
+        ];
+        for (name, found, low, high, range) in bounds {
+            if !(low..=high).contains(&found) {
+                return Err(ScatteringError::OutOfRange { name, found, range });
+            }
+        }
+        for found in self.sigma_a.to_array() {
+            if !(found.is_finite() && found >= 0.0) {
+                let (name, range) = ("medulla sigma_a", "[0, infinity)");
+                return Err(ScatteringError::OutOfRange { name, found, range });
+            }
+        }
+        Ok(())
+    }
+}
+
+impl Default for Medulla {
+    fn default() -> Self {
+        Medulla::NONE
+    }
+}
+
+/// A fibre of fur: hair (whose `sigma_a` is that of the cortex) around a medulla.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct FurParameters {
+    /// Surface and cortex.
+    pub hair: HairParameters,
+    /// The core.
+    pub medulla: Medulla,
+}
+
+impl FurParameters {
+    /// Checks every bound of both.
+    ///
+    /// # Errors
+    /// The first bound broken.
+    pub fn check(&self) -> Result<(), ScatteringError> {
+        self.hair.check()?;
+        self.medulla.check()
+    }
+}
+
+impl From<HairParameters> for FurParameters {
+    fn from(hair: HairParameters) -> Self {
+        FurParameters { hair, medulla: Medulla::NONE }
+    }
+}
+
+/// What varies from strand to strand without a new material: absorption per fibre radius, RGB.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Absorption {
+    /// Of the cortex: hair's `sigma_a`.
+    pub cortex: Vec3,
+    /// Of the medulla; of no account for hair.
+    pub medulla: Vec3,
+}
