@@ -4,6 +4,7 @@ use crate::real::Real;
 
 /// The fibre's cross-section as light from one direction meets it at one offset.
 #[derive(Debug, Clone, Copy)]
+#[allow(dead_code)] // two fields wait for fur
 pub(crate) struct Chord<T> {
     /// The share reflected at the surface.
     pub fresnel: T,
@@ -13,6 +14,10 @@ pub(crate) struct Chord<T> {
     pub gamma_i: T,
     /// The same inside.
     pub gamma_t: T,
+    /// Sine and cosine of `gamma_t`.
+    pub turn_t: (T, T),
+    /// Length of a path inside over its length in the cross-section: `1 / cos(theta_t)`.
+    pub stretch: T,
 }
 
 impl<T: Real> Chord<T> {
@@ -36,14 +41,15 @@ impl<T: Real> Chord<T> {
             length,
             gamma_i: h.asin(),
             gamma_t: sin_gamma_t.max(-T::ONE).min(T::ONE).asin(),
+            turn_t: (sin_gamma_t, cos_gamma_t),
+            stretch: eta2.sqrt() / bent,
         }
     }
 
-    /// A_0 .. A_3 for one absorption coefficient; they sum to 1 when it is 0.
+    /// A_0 .. A_3 where one crossing lets `exp(-depth)` pass; they sum to 1 when all passes.
     ///
     /// The last is the whole geometric series that begins with two inner reflections.
-    pub fn attenuations(&self, sigma_a: T) -> [T; 4] {
-        let depth = sigma_a * self.length;
+    pub fn attenuations_through(&self, depth: T) -> [T; 4] {
         let pass = (-depth).exp();
         let reflected = self.fresnel;
         let entered = T::ONE - reflected;

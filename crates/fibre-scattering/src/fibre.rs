@@ -52,25 +52,37 @@ impl<T: Real> Fibre<T> {
 
     /// Prepares all that does not depend on `wi`.
     pub fn at(&self, wo: [T; 3], h: T) -> Hit<T> {
+        self.at_through(wo, h, |chord| self.sigma_a.map(|sigma_a| sigma_a * chord.length)).0
+    }
+
+    /// [`Fibre::at`] where the optical depth of one crossing, per channel, is `depths` and not that of a
+    /// cortex alone; the crossing too.
+    pub fn at_through(
+        &self,
+        wo: [T; 3],
+        h: T,
+        depths: impl FnOnce(&Chord<T>) -> [T; 3],
+    ) -> (Hit<T>, Chord<T>) {
         let h = h.max(-T::ONE).min(T::ONE);
         let (theta_o, turn_o) = inclination_and_turn(wo);
         let chord = Chord::new(self.eta2_minus_1, theta_o.cos.min(T::ONE), h);
-        let [red, green, blue] = self.sigma_a;
-        let red = chord.attenuations(red);
-        let green = chord.attenuations(green);
-        let blue = chord.attenuations(blue);
+        let [red, green, blue] = depths(&chord);
+        let red = chord.attenuations_through(red);
+        let green = chord.attenuations_through(green);
+        let blue = chord.attenuations_through(blue);
         let attenuations = four(|p| {
             let weight = self.lobe_weights[p];
             [red[p] * weight, green[p] * weight, blue[p] * weight]
         });
-        Hit {
+        let hit = Hit {
             turn_o,
             mirrors: Mirrors::new(theta_o, self.tilts),
             centres: exit_azimuths(&chord),
             probabilities: probabilities(&attenuations),
             attenuations,
             spread: self.spread,
-        }
+        };
+        (hit, chord)
     }
 }
 
@@ -136,13 +148,28 @@ pub(crate) struct Hit<T> {
 }
 
 impl<T: Real> Hit<T> {
+    /// phi_i - phi_o, in [-pi, pi].
+    #[inline(always)]
+    pub fn azimuth(&self, [_, y, z]: [T; 3]) -> T {
+        let [cos_o, sin_o] = self.turn_o;
+        (z * cos_o - y * sin_o).atan2(y * cos_o + z * sin_o)
+    }
+
+    /// The direction at an inclination and an azimuth against that of `wo`.
+    #[inline]
+    pub fn direction(&self, theta_i: Inclination<T>, phi: T) -> [T; 3] {
+        let (sin_phi, cos_phi) = phi.sin_cos();
+        let [cos_o, sin_o] = self.turn_o;
+        let y = theta_i.cos * (cos_phi * cos_o - sin_phi * sin_o);
+        let z = theta_i.cos * (sin_phi * cos_o + cos_phi * sin_o);
+        [theta_i.sin, y, z]
+    }
+
     /// M_p N_p of each lobe, all four in step: that is what makes it fast.
     #[inline(always)]
-    fn densities(&self, wi: [T; 3]) -> [T; 4] {
+    fn densities(&self, wi: [T; 3], phi: T) -> [T; 4] {
         let [along, y, z] = wi;
         let theta_i = Inclination { sin: along, cos: (y * y + z * z).sqrt() };
-        let [cos_o, sin_o] = self.turn_o;
-        let phi = (z * cos_o - y * sin_o).atan2(y * cos_o + z * sin_o);
         let mut around = self.spread.around.densities(four(|p| wrapped(phi - self.centres[p])));
         around[RESIDUAL] = T::ONE / T::TAU;
         let along = self.spread.along.densities(theta_i, &self.mirrors);
@@ -152,7 +179,13 @@ impl<T: Real> Hit<T> {
     /// f cos(theta_i) per lobe and channel, and the density over solid angle.
     #[inline]
     pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 5], T) {
-        let densities = self.densities(wi);
+        self.evaluate_at(wi, self.azimuth(wi))
+    }
+
+    /// [`Hit::evaluate_with_pdf`] for a direction whose azimuth is known.
+    #[inline(always)]
+    pub fn evaluate_at(&self, wi: [T; 3], phi: T) -> ([[T; 3]; 5], T) {
+        let densities = self.densities(wi, phi);
         let value = |p: usize| {
             let [red, green, blue] = self.attenuations[p];
             let density = densities[p];
@@ -169,7 +202,7 @@ impl<T: Real> Hit<T> {
 
     /// The density over solid angle alone.
     pub fn pdf(&self, wi: [T; 3]) -> T {
-        self.mixed(&self.densities(wi))
+        self.mixed(&self.densities(wi, self.azimuth(wi)))
     }
 
     fn mixed(&self, densities: &[T; 4]) -> T {
@@ -183,11 +216,7 @@ impl<T: Real> Hit<T> {
         let theta_i = self.spread.along.sample(p, &self.mirrors, [u[1], u[2]]);
         let phi =
             if p == RESIDUAL { T::TAU * u[3] } else { self.centres[p] + self.spread.around.sample(u[3]) };
-        let (sin_phi, cos_phi) = phi.sin_cos();
-        let [cos_o, sin_o] = self.turn_o;
-        let y = theta_i.cos * (cos_phi * cos_o - sin_phi * sin_o);
-        let z = theta_i.cos * (sin_phi * cos_o + cos_phi * sin_o);
-        Some(([theta_i.sin, y, z], p))
+        Some((self.direction(theta_i, phi), p))
     }
 
     /// The lobe a uniform number falls on; the last that has a chance when rounding leaves none.
