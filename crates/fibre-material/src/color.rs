@@ -49,12 +49,12 @@ pub(crate) fn absorption(
                     return Err(MaterialError::value(what, value, "0..1"));
                 }
             }
-            Varying::Constant(absorption_from_melanin(concentration, redness))
+            Varying::Constant(absorption_from_melanin(concentration, redness)?)
         }
-        HairColor::Color(color) => Varying::Constant(absorption_from_color(checked(color)?, beta_n)),
+        HairColor::Color(color) => Varying::Constant(absorption_from_color(checked(color)?, beta_n)?),
         HairColor::Groom { fallback } => match groom.attribute(names::COLOR) {
             Some(Attribute { domain, values: Values::Vec3(colors) }) => by_color(*domain, colors, beta_n)?,
-            _ => Varying::Constant(absorption_from_color(checked(fallback)?, beta_n)),
+            _ => Varying::Constant(absorption_from_color(checked(fallback)?, beta_n)?),
         },
     })
 }
@@ -63,12 +63,10 @@ pub(crate) fn absorption(
 fn by_color(domain: Domain, colors: &[Vec3], beta_n: f32) -> Result<Varying<Vec3>, MaterialError> {
     let first = checked(colors.first().copied().unwrap_or(Vec3::ONE))?;
     if colors.iter().all(|&color| color == first) {
-        return Ok(Varying::Constant(absorption_from_color(first, beta_n)));
+        return Ok(Varying::Constant(absorption_from_color(first, beta_n)?));
     }
-    let sigmas: Result<Vec<_>, _> = colors
-        .iter()
-        .map(|&color| checked(color).map(|color| absorption_from_color(color, beta_n)))
-        .collect();
+    let sigmas: Result<Vec<_>, MaterialError> =
+        colors.iter().map(|&color| Ok(absorption_from_color(checked(color)?, beta_n)?)).collect();
     Ok(Varying::new(domain, sigmas?).unwrap_or(Varying::Constant(Vec3::ZERO)))
 }
 

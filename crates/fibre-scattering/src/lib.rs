@@ -9,7 +9,7 @@
 //! use glam::Vec3;
 //!
 //! let blond = HairParameters {
-//!     sigma_a: absorption_from_color(Vec3::new(0.86, 0.65, 0.35), 0.3),
+//!     sigma_a: absorption_from_color(Vec3::new(0.86, 0.65, 0.35), 0.3)?,
 //!     ..HairParameters::default()
 //! };
 //! let fibre = HairBcsdf::new(&blond)?.at(Vec3::Y, 0.4);
@@ -72,11 +72,14 @@ mod longitudinal;
 mod medulla;
 mod medulla_table;
 mod parameters;
+mod range;
 mod real;
 mod reference;
 mod sample;
 
-pub use absorption::{absorption_from_color, absorption_from_melanin, absorption_from_pigments};
+pub use absorption::{
+    Pigments, absorption_from_color, absorption_from_melanin, absorption_from_pigments, color_from_absorption,
+};
 pub use bcsdf::{HairBcsdf, HairScatter};
 pub use error::ScatteringError;
 pub use far_field::{FarFieldBcsdf, FarFieldScatter};

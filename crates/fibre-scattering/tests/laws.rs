@@ -4,7 +4,7 @@ mod support;
 
 use fibre_scattering::{
     HairBcsdf, HairParameters, ScatteringError, absorption_from_color, absorption_from_melanin,
-    absorption_from_pigments,
+    absorption_from_pigments, color_from_absorption,
 };
 use glam::Vec3;
 use proptest::prelude::*;
@@ -202,23 +202,60 @@ fn parameters_outside_their_bounds_are_refused_by_name() {
 #[test]
 fn colour_and_pigment_become_absorption() {
     // (ln 0.5 / 5.6693)^2 for beta_n 0.3, worked by hand from the published polynomial.
-    let grey = absorption_from_color(Vec3::splat(0.5), 0.3);
+    let grey = absorption_from_color(Vec3::splat(0.5), 0.3).unwrap();
     let divisor = 5.969 - 0.215 * 0.3 + 2.532 * 0.09 - 10.73 * 0.027 + 5.574 * 0.0081 + 0.245 * 0.00243;
     let expected = (0.5_f32.ln() / divisor).powi(2);
     assert!((grey.x - expected).abs() < 1e-6 * expected, "{grey} {expected}");
-    assert_eq!(absorption_from_color(Vec3::new(1.0, 2.0, 1.0), 0.3), Vec3::ZERO);
-    assert!(absorption_from_color(Vec3::new(0.0, -1.0, f32::NAN), 0.3).is_finite());
-    assert!(absorption_from_color(Vec3::splat(0.1), 0.3).x > grey.x);
+    assert_eq!(absorption_from_color(Vec3::ONE, 0.3), Ok(Vec3::ZERO));
+    assert!(absorption_from_color(Vec3::ZERO, 0.3).unwrap().is_finite());
+    assert!(absorption_from_color(Vec3::splat(0.1), 0.3).unwrap().x > grey.x);
 
-    assert_eq!(absorption_from_melanin(0.0, 0.5), Vec3::ZERO);
-    assert!(absorption_from_melanin(2.0, 0.5).is_finite());
+    assert_eq!(absorption_from_melanin(0.0, 0.5), Ok(Vec3::ZERO));
     // MaterialX's colours of the pigments are the transmittances at unit concentration.
     let one = 1.0 - (-1.0_f32).exp();
-    let black = absorption_from_melanin(one, 0.0);
-    let red = absorption_from_melanin(one, 1.0);
+    let black = absorption_from_melanin(one, 0.0).unwrap();
+    let red = absorption_from_melanin(one, 1.0).unwrap();
     let transmitted = |sigma: Vec3| Vec3::new((-sigma.x).exp(), (-sigma.y).exp(), (-sigma.z).exp());
     assert!((transmitted(black) - Vec3::new(0.657_704, 0.498_077, 0.254_107)).length() < 1e-5);
     assert!((transmitted(red) - Vec3::new(0.829_444, 0.670_32, 0.349_938)).length() < 1e-5);
-    assert_eq!(absorption_from_pigments(1.0, 0.0), Vec3::new(0.419, 0.697, 1.37));
-    assert_eq!(absorption_from_pigments(-1.0, -1.0), Vec3::ZERO);
+    assert_eq!(absorption_from_pigments(1.0, 0.0), Ok(Vec3::new(0.419, 0.697, 1.37)));
+    // Black is bounded, at a melanin of 0.9999.
+    let most = absorption_from_melanin(1.0, 0.0).unwrap();
+    assert!((most.x - 0.419 * 1e4_f32.ln()).abs() < 1e-5);
+}
+
+#[test]
+fn the_fit_of_colour_and_its_inverse() {
+    for beta_n in [0.05, 0.3, 0.9] {
+        for color in [Vec3::new(0.9, 0.5, 0.1), Vec3::new(0.02, 0.3, 0.99), Vec3::new(1.0, 1e-6, 0.5)] {
+            let sigma_a = absorption_from_color(color, beta_n).unwrap();
+            let back = color_from_absorption(sigma_a, beta_n).unwrap();
+            assert!((back - color).abs().max_element() < 1e-5, "{color} {back}");
+        }
+    }
+}
+
+#[test]
+fn colour_and_pigment_outside_their_ranges_are_refused() {
+    let name = |refused: Result<Vec3, ScatteringError>| match refused {
+        Err(ScatteringError::OutOfRange { name, .. } | ScatteringError::Roughness { name, .. }) => name,
+        Err(ScatteringError::Absorption { .. }) => "sigma_a",
+        other => panic!("{other:?}"),
+    };
+    for color in [Vec3::new(0.1, 1.01, 0.1), Vec3::new(-1e-9, 0.1, 0.1), Vec3::new(0.1, 0.1, f32::NAN)] {
+        assert_eq!(name(absorption_from_color(color, 0.3)), "color");
+    }
+    for beta_n in [0.0, 1.1, f32::NAN] {
+        assert_eq!(name(absorption_from_color(Vec3::ONE, beta_n)), "beta_n");
+        assert_eq!(name(color_from_absorption(Vec3::ONE, beta_n)), "beta_n");
+    }
+    assert_eq!(name(color_from_absorption(Vec3::NEG_ONE, 0.3)), "sigma_a");
+    for bad in [-0.1, 1.1, f32::NAN] {
+        assert_eq!(name(absorption_from_melanin(bad, 0.5)), "melanin");
+        assert_eq!(name(absorption_from_melanin(0.5, bad)), "melanin_redness");
+    }
+    for bad in [-0.1, f32::INFINITY, f32::NAN] {
+        assert_eq!(name(absorption_from_pigments(bad, 0.5)), "eumelanin");
+        assert_eq!(name(absorption_from_pigments(0.5, bad)), "pheomelanin");
+    }
 }

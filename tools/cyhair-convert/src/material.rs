@@ -1,7 +1,9 @@
 //! From the options to the numbers a file's material holds.
 
 use anyhow::Result;
-use fibre_scattering::{HairBcsdf, HairParameters, absorption_from_color, absorption_from_melanin};
+use fibre_scattering::{
+    HairBcsdf, HairParameters, absorption_from_color, absorption_from_melanin, color_from_absorption,
+};
 use glam::Vec3;
 use groom::{Groom, Vec3View};
 use groom_formats::Look;
@@ -16,9 +18,9 @@ pub(crate) fn look(options: &Material, groom: &Groom) -> Result<Option<Look>> {
     let Some(source) = options.material else { return Ok(None) };
     let (beta_m, beta_n) = (options.beta_m, options.beta_n);
     let sigma_a = match source {
-        Source::Groom => absorption_from_color(mean_color(groom), beta_n),
-        Source::Color(color) => absorption_from_color(color.into(), beta_n),
-        Source::Melanin([concentration, redness]) => absorption_from_melanin(concentration, redness),
+        Source::Groom => absorption_from_color(mean_color(groom), beta_n)?,
+        Source::Color(color) => absorption_from_color(color.into(), beta_n)?,
+        Source::Melanin([concentration, redness]) => absorption_from_melanin(concentration, redness)?,
         Source::Absorption(sigma_a) => sigma_a.into(),
     };
     let alpha = options.alpha.to_radians();
@@ -29,8 +31,8 @@ pub(crate) fn look(options: &Material, groom: &Groom) -> Result<Option<Look>> {
     let (color, melanin) = match source {
         Source::Groom => (mean_color(groom), None),
         Source::Color(color) => (color.into(), None),
-        Source::Melanin(melanin) => (color_of(sigma_a, beta_n), Some(melanin)),
-        Source::Absorption(_) => (color_of(sigma_a, beta_n), None),
+        Source::Melanin(melanin) => (color_from_absorption(sigma_a, beta_n)?, Some(melanin)),
+        Source::Absorption(_) => (color_from_absorption(sigma_a, beta_n)?, None),
     };
     Ok(Some(Look {
         color: color.to_array(),
@@ -56,27 +58,5 @@ fn mean_color(groom: &Groom) -> Vec3 {
         Some(Vec3View::Strand(colors)) => mean(colors, &|strand| groom.strand_range(strand).len() as f64),
         Some(Vec3View::Vertex(colors)) => mean(colors, &|_| 1.0),
         None => BROWN,
-    }
-}
-
-/// The colour whose fit gives this absorption: the inverse of Chiang et al. 2016, eq. 9.
-fn color_of(sigma_a: Vec3, beta_n: f32) -> Vec3 {
-    // The fit is a square of a logarithm over a number that depends on the roughness alone.
-    let divisor = 1.0 / absorption_from_color(Vec3::splat((-1.0_f32).exp()), beta_n).x.sqrt();
-    Vec3::from_array(sigma_a.to_array().map(|sigma| (-sigma.sqrt() * divisor).exp()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn the_fit_and_its_inverse() {
-        for beta_n in [0.05, 0.3, 0.9] {
-            for color in [Vec3::new(0.9, 0.5, 0.1), Vec3::new(0.02, 0.3, 0.99)] {
-                let back = color_of(absorption_from_color(color, beta_n), beta_n);
-                assert!((back - color).abs().max_element() < 1e-5, "{color} {back}");
-            }
-        }
     }
 }
