@@ -13,6 +13,14 @@ pub enum ScatteringError {
         /// Where it must lie.
         range: &'static str,
     },
+    /// Two settings exclude each other and both were given.
+    #[error("give {one} or {other}, not both")]
+    Conflict {
+        /// One of them.
+        one: &'static str,
+        /// The other.
+        other: &'static str,
+    },
     /// A medulla that scatters came without its table, or with that of another material.
     #[error("the medulla's table is missing or was made for other parameters")]
     Table,

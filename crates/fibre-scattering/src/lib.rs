@@ -72,6 +72,7 @@ mod longitudinal;
 mod medulla;
 mod medulla_table;
 mod parameters;
+mod parametrisation;
 mod range;
 mod real;
 mod reference;
@@ -89,5 +90,9 @@ pub use lobe::{Lobe, LobeValues};
 pub use medulla::{Absorption, FurParameters, Medulla};
 pub use medulla_table::{MedullaKey, MedullaTable};
 pub use parameters::{HairParameters, RoughnessScales, WaterFilm};
+pub use parametrisation::{
+    ArnoldHair, CyclesHair, CyclesParametrization, MaterialXHair, MaterialXMelanin, MaterialXRoughness,
+    MitsubaHair, PbrtHair, PxrMarschnerHair, beta_m_from_variance, beta_n_from_scale,
+};
 pub use reference::{ReferenceBcsdf, ReferenceScatter};
 pub use sample::FibreSample;

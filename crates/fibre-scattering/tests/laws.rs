@@ -201,7 +201,7 @@ fn parameters_outside_their_bounds_are_refused_by_name() {
 
 #[test]
 fn colour_and_pigment_become_absorption() {
-    // (ln 0.5 / 5.6693)^2 for beta_n 0.3, worked by hand from the published polynomial.
+    // (ln 0.5 / 5.8884)^2 for beta_n 0.3, worked by hand from the published polynomial.
     let grey = absorption_from_color(Vec3::splat(0.5), 0.3).unwrap();
     let divisor = 5.969 - 0.215 * 0.3 + 2.532 * 0.09 - 10.73 * 0.027 + 5.574 * 0.0081 + 0.245 * 0.00243;
     let expected = (0.5_f32.ln() / divisor).powi(2);
