@@ -53,18 +53,18 @@ impl Material {
     pub fn dress(&self, groom: &Groom) -> Result<Dressed, MaterialError> {
         let cortex = color::absorption(groom, self.color, self.parameters.beta_n)?;
         let medulla = self.medulla.sigma_a;
-        let both = |cortex| Absorption { cortex, medulla };
+        let both = |cortex| Absorption::new(cortex, medulla);
         let absorption = match cortex {
-            Varying::Constant(cortex) => Varying::Constant(both(cortex)),
-            Varying::Strand(all) => Varying::Strand(all.into_iter().map(both).collect()),
-            Varying::Vertex(all) => Varying::Vertex(all.into_iter().map(both).collect()),
+            Varying::Constant(cortex) => Varying::Constant(both(cortex)?),
+            Varying::Strand(all) => Varying::Strand(all.into_iter().map(both).collect::<Result<_, _>>()?),
+            Varying::Vertex(all) => Varying::Vertex(all.into_iter().map(both).collect::<Result<_, _>>()?),
         };
         let constant = match absorption {
             Varying::Constant(absorption) => absorption,
             _ => Absorption::default(),
         };
         let mut parameters = FurParameters { hair: self.parameters, medulla: self.medulla };
-        (parameters.hair.sigma_a, parameters.medulla.sigma_a) = (constant.cortex, constant.medulla);
+        (parameters.hair.sigma_a, parameters.medulla.sigma_a) = (constant.cortex(), constant.medulla());
         parameters.check()?;
         Ok(Dressed { parameters, absorption, roughness: None, field: self.field })
     }

@@ -59,12 +59,12 @@ const DARKEST: f32 = 1e-6;
 /// `color` (linear, each in [0, 1]): Chiang et al. 2016, eq. 9.
 ///
 /// The fit counts the light that goes from fibre to fibre; a fibre alone is brighter. `beta_n`, in
-/// (0, 1], is the roughness around the fibre. Black has no finite absorption: channels below 1e-6 are
+/// [0.001, 1], is the roughness around the fibre. Black has no finite absorption: channels below 1e-6 are
 /// given that of 1e-6.
 ///
 /// # Errors
-/// [`ScatteringError::OutOfRange`] for a channel outside [0, 1], [`ScatteringError::Roughness`] for
-/// `beta_n` outside (0, 1]; NaN is outside.
+/// [`ScatteringError::OutOfRange`] for a channel outside [0, 1] or a `beta_n` outside [0.001, 1]; NaN is
+/// outside.
 pub fn absorption_from_color(color: Vec3, beta_n: f32) -> Result<Vec3, ScatteringError> {
     let divisor = fit_divisor(beta_n)?;
     let mut sigma_a = [0.0; 3];
@@ -79,8 +79,8 @@ pub fn absorption_from_color(color: Vec3, beta_n: f32) -> Result<Vec3, Scatterin
 /// The colour whose fit gives this absorption: the exact inverse of [`absorption_from_color`].
 ///
 /// # Errors
-/// [`ScatteringError::Absorption`] for a channel that is negative or not finite,
-/// [`ScatteringError::Roughness`] for `beta_n` outside (0, 1].
+/// [`ScatteringError::OutOfRange`] for a channel that is negative or not finite, or a `beta_n` outside
+/// [0.001, 1].
 pub fn color_from_absorption(sigma_a: Vec3, beta_n: f32) -> Result<Vec3, ScatteringError> {
     let divisor = fit_divisor(beta_n)?;
     range::absorption(sigma_a)?;
@@ -89,10 +89,7 @@ pub fn color_from_absorption(sigma_a: Vec3, beta_n: f32) -> Result<Vec3, Scatter
 
 /// What the fit divides the logarithm of the colour by.
 fn fit_divisor(beta_n: f32) -> Result<f32, ScatteringError> {
-    if !(beta_n > 0.0 && beta_n <= 1.0) {
-        return Err(ScatteringError::Roughness { name: "beta_n", found: beta_n });
-    }
-    let b = beta_n;
+    let b = range::roughness("beta_n", beta_n)?;
     Ok(5.969 + b * (-0.215 + b * (2.532 + b * (-10.73 + b * (5.574 + b * 0.245)))))
 }
 

@@ -6,6 +6,7 @@ use crate::error::ScatteringError;
 use crate::fibre::{Fibre, Hit};
 use crate::lobe::{Lobe, LobeValues};
 use crate::parameters::HairParameters;
+use crate::per_strand::Absorption;
 use crate::sample::FibreSample;
 
 /// A fibre's material, with everything worked out that depends on neither direction nor offset.
@@ -26,11 +27,11 @@ impl HairBcsdf {
 
     /// The same material with another absorption per fibre radius, as for a colour per strand.
     ///
-    /// Only a copy: nothing is worked out again. Negative values and NaN count as 0.
+    /// Only a copy: nothing is worked out again. That of the medulla is of no account.
     #[must_use]
-    pub fn with_absorption(&self, sigma_a: Vec3) -> HairBcsdf {
+    pub fn with_absorption(&self, absorption: Absorption) -> HairBcsdf {
         let mut fibre = self.fibre;
-        fibre.sigma_a = sigma_a.to_array().map(|sigma| sigma.max(0.0));
+        fibre.sigma_a = absorption.cortex().to_array();
         HairBcsdf { fibre }
     }
 

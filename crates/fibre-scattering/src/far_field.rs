@@ -5,8 +5,8 @@ use glam::Vec3;
 use crate::bcsdf::{HairBcsdf, HairScatter};
 use crate::error::ScatteringError;
 use crate::lobe::LobeValues;
-use crate::medulla::Absorption;
 use crate::parameters::HairParameters;
+use crate::per_strand::Absorption;
 use crate::sample::FibreSample;
 
 /// A hair material whose offset is integrated over by a quadrature of `nodes` offsets.
@@ -27,12 +27,12 @@ impl FarFieldBcsdf {
     /// The fibre as seen from `wo`: see [`HairBcsdf::at`].
     #[must_use]
     pub fn at(&self, wo: Vec3, absorption: Absorption) -> FarFieldScatter {
-        FarFieldScatter { hair: self.hair.with_absorption(absorption.cortex).at(wo, 0.0) }
+        FarFieldScatter { hair: self.hair.with_absorption(absorption).at(wo, 0.0) }
     }
 }
 
 /// A fibre met by a ray, wherever it was met.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub struct FarFieldScatter {
     hair: HairScatter,
 }

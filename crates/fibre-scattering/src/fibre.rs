@@ -6,7 +6,7 @@
 use crate::attenuation::Chord;
 use crate::azimuthal::{TrimmedLogistic, wrapped};
 use crate::longitudinal::{Inclination, Longitudinal, Mirrors};
-use crate::parameters::{HairParameters, SMALLEST_ROUGHNESS, azimuthal_deviation, longitudinal_variance};
+use crate::parameters::{HairParameters, azimuthal_deviation, longitudinal_variance};
 use crate::real::{Real, four};
 
 /// Position of the residual lobe, the only one without an azimuth of its own.
@@ -33,8 +33,8 @@ struct Spread<T> {
 impl<T: Real> Fibre<T> {
     /// `parameters` have passed their check.
     pub fn new(parameters: &HairParameters) -> Self {
-        let beta_m = f64::from(parameters.beta_m.max(SMALLEST_ROUGHNESS));
-        let beta_n = f64::from(parameters.beta_n.max(SMALLEST_ROUGHNESS));
+        let beta_m = f64::from(parameters.beta_m);
+        let beta_n = f64::from(parameters.beta_n);
         let eta = f64::from(parameters.eta);
         let alpha = f64::from(parameters.alpha);
         let v = longitudinal_variance(beta_m);

@@ -6,7 +6,7 @@ use crate::bcsdf::{HairBcsdf, HairScatter};
 use crate::far_field::{FarFieldBcsdf, FarFieldScatter};
 use crate::fur::{FurBcsdf, FurScatter};
 use crate::lobe::LobeValues;
-use crate::medulla::Absorption;
+use crate::per_strand::Absorption;
 use crate::sample::FibreSample;
 
 /// A material of fibres.
@@ -26,7 +26,7 @@ impl FibreBcsdf {
     #[must_use]
     pub fn at(&self, wo: Vec3, h: f32, absorption: Absorption) -> FibreScatter<'_> {
         match self {
-            FibreBcsdf::Hair(hair) => FibreScatter::Hair(hair.with_absorption(absorption.cortex).at(wo, h)),
+            FibreBcsdf::Hair(hair) => FibreScatter::Hair(hair.with_absorption(absorption).at(wo, h)),
             FibreBcsdf::Fur(fur) => FibreScatter::Fur(fur.at(wo, h, absorption)),
             FibreBcsdf::FarField(far) => FibreScatter::FarField(far.at(wo, absorption)),
         }
@@ -34,7 +34,7 @@ impl FibreBcsdf {
 }
 
 /// A fibre met by a ray: scattering as a function of the other direction.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 pub enum FibreScatter<'a> {
     /// Hair.
     Hair(HairScatter),

@@ -7,8 +7,9 @@ use glam::Vec3;
 use crate::bcsdf::{HairBcsdf, HairScatter};
 use crate::error::ScatteringError;
 use crate::lobe::LobeValues;
-use crate::medulla::{Absorption, FurParameters};
+use crate::medulla::FurParameters;
 use crate::medulla_table::{MedullaKey, MedullaTable};
+use crate::per_strand::Absorption;
 use crate::sample::FibreSample;
 
 /// A fur material, ready to be met by rays. Without a medulla it is hair, bit for bit.
@@ -38,7 +39,7 @@ impl FurBcsdf {
     /// The fibre as seen from `wo` at the offset `h`: see [`HairBcsdf::at`].
     #[must_use]
     pub fn at(&self, wo: Vec3, h: f32, absorption: Absorption) -> FurScatter<'_> {
-        let hair = self.hair.with_absorption(absorption.cortex).at(wo, h);
+        let hair = self.hair.with_absorption(absorption).at(wo, h);
         FurScatter { hair, table: self.table.as_deref() }
     }
 }

@@ -73,6 +73,7 @@ mod medulla;
 mod medulla_table;
 mod parameters;
 mod parametrisation;
+mod per_strand;
 mod range;
 mod real;
 mod reference;
@@ -87,12 +88,13 @@ pub use far_field::{FarFieldBcsdf, FarFieldScatter};
 pub use fibre_bcsdf::{FibreBcsdf, FibreScatter};
 pub use fur::{FurBcsdf, FurScatter};
 pub use lobe::{Lobe, LobeValues};
-pub use medulla::{Absorption, FurParameters, Medulla};
+pub use medulla::{FurParameters, Medulla};
 pub use medulla_table::{MedullaKey, MedullaTable};
 pub use parameters::{HairParameters, RoughnessScales, WaterFilm};
 pub use parametrisation::{
     ArnoldHair, CyclesHair, CyclesParametrization, MaterialXHair, MaterialXMelanin, MaterialXRoughness,
     MitsubaHair, PbrtHair, PxrMarschnerHair, beta_m_from_variance, beta_n_from_scale,
 };
+pub use per_strand::Absorption;
 pub use reference::{ReferenceBcsdf, ReferenceScatter};
 pub use sample::FibreSample;

@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use crate::error::ScatteringError;
 use crate::parameters::HairParameters;
+use crate::range;
 
 /// The medulla of Yan et al. 2017, "An Efficient and Practical Near and Far Field Fur Reflectance Model"
 /// (doi:10.1145/3072959.3073600). It shares the cortex's index of refraction, so that light bends at the
@@ -35,23 +36,10 @@ impl Medulla {
     /// # Errors
     /// The first bound broken, as a [`ScatteringError`]; NaN breaks every bound.
     pub fn check(&self) -> Result<(), ScatteringError> {
-        let bounds = [
-            ("kappa", self.kappa, 0.0, 0.99, "[0, 0.99]"),
-            ("medulla sigma_s", self.sigma_s, 0.0, 100.0, "[0, 100]"),
-            ("g", self.g, -0.99, 0.99, "[-0.99, 0.99]"),
-        ];
-        for (name, found, low, high, range) in bounds {
-            if !(low..=high).contains(&found) {
-                return Err(ScatteringError::OutOfRange { name, found, range });
-            }
-        }
-        for found in self.sigma_a.to_array() {
-            if !(found.is_finite() && found >= 0.0) {
-                let (name, range) = ("medulla sigma_a", "[0, infinity)");
-                return Err(ScatteringError::OutOfRange { name, found, range });
-            }
-        }
-        Ok(())
+        range::within("medulla.kappa", self.kappa, 0.0..=0.99, "[0, 0.99]")?;
+        range::within("medulla.sigma_s", self.sigma_s, 0.0..=100.0, "[0, 100]")?;
+        range::within("medulla.g", self.g, -0.99..=0.99, "[-0.99, 0.99]")?;
+        range::medulla_absorption(self.sigma_a)
     }
 }
 
@@ -85,13 +73,4 @@ impl From<HairParameters> for FurParameters {
     fn from(hair: HairParameters) -> Self {
         FurParameters { hair, medulla: Medulla::NONE }
     }
-}
-
-/// What varies from strand to strand without a new material: absorption per fibre radius, RGB.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
-pub struct Absorption {
-    /// Of the cortex: hair's `sigma_a`.
-    pub cortex: Vec3,
-    /// Of the medulla; of no account for hair.
-    pub medulla: Vec3,
 }

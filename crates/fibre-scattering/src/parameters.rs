@@ -5,20 +5,14 @@ use std::f32::consts::FRAC_PI_2;
 use glam::Vec3;
 
 use crate::error::ScatteringError;
-
-/// Roughness below this is taken as this: the lobe is then already narrower than 0.05 degrees, and
-/// single precision could not place it better.
-pub(crate) const SMALLEST_ROUGHNESS: f32 = 1e-3;
-
-const ETA_MIN: f32 = 1.0001;
-const ETA_MAX: f32 = 3.0;
+use crate::range;
 
 /// A hair fibre as Chiang et al. 2016 describe it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HairParameters {
-    /// Roughness along the fibre, in (0, 1]; below 0.001 counts as 0.001.
+    /// Roughness along the fibre, in [0.001, 1].
     pub beta_m: f32,
-    /// Roughness around the fibre, in (0, 1]; below 0.001 counts as 0.001.
+    /// Roughness around the fibre, in [0.001, 1].
     pub beta_n: f32,
     /// Tilt of the cuticle's scales against the fibre, in radians, in (-pi/2, pi/2). Positive for
     /// real hair, whose scales open towards the tip: see the crate's page for the direction in
@@ -33,12 +27,12 @@ pub struct HairParameters {
     pub lobe_weights: [f32; 5],
     /// How much rougher TT and TRT are than R, along the fibre.
     pub roughness_scales: RoughnessScales,
-    /// Layers of cuticle scales, as Yan et al. 2017 count them; `None`, the bare surface, is Fresnel's
-    /// reflectance itself.
+    /// Layers of cuticle scales, as Yan et al. 2017 count them, in [0.01, 100]; `None`, the bare surface, is
+    /// Fresnel's reflectance itself.
     pub cuticle_layers: Option<f32>,
     /// A film of water over the fibre; `None` for dry hair.
     pub film: Option<WaterFilm>,
-    /// Smaller over larger axis of an elliptical cross-section, in (0, 1]; 1 is round. The larger axis
+    /// Smaller over larger axis of an elliptical cross-section, in [0.1, 1]; 1 is round. The larger axis
     /// lies along y of the fibre's frame.
     pub aspect: f32,
 }
@@ -47,9 +41,9 @@ pub struct HairParameters {
 /// `scale_TT` and `scale_TRT` of MaterialX.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct RoughnessScales {
-    /// Of TT; above 0, at most 8.
+    /// Of TT, in [0.1, 8].
     pub tt: f32,
-    /// Of TRT and the residual; above 0, at most 8.
+    /// Of TRT and the residual, in [0.1, 8].
     pub trt: f32,
 }
 
@@ -65,7 +59,7 @@ impl Default for RoughnessScales {
 pub struct WaterFilm {
     /// Index of refraction of the film over that of air, in [1.0001, 3].
     pub eta: f32,
-    /// Roughness of its surface, in the measure of `beta_m`.
+    /// Roughness of its surface, in the measure of `beta_m` and `beta_n`, in [0.001, 1].
     pub roughness: f32,
 }
 
@@ -100,27 +94,26 @@ impl HairParameters {
     /// # Errors
     /// The first bound broken, as a [`ScatteringError`]; NaN breaks every bound.
     pub fn check(&self) -> Result<(), ScatteringError> {
-        for (name, found) in [("beta_m", self.beta_m), ("beta_n", self.beta_n)] {
-            if !(found > 0.0 && found <= 1.0) {
-                return Err(ScatteringError::Roughness { name, found });
-            }
-        }
+        range::roughness("beta_m", self.beta_m)?;
+        range::roughness("beta_n", self.beta_n)?;
         if !(self.alpha > -FRAC_PI_2 && self.alpha < FRAC_PI_2) {
-            return Err(ScatteringError::Tilt { found: self.alpha });
+            let (name, range) = ("alpha", "(-pi/2, pi/2)");
+            return Err(ScatteringError::OutOfRange { name, found: self.alpha, range });
         }
-        if !(ETA_MIN..=ETA_MAX).contains(&self.eta) {
-            return Err(ScatteringError::IndexOfRefraction { found: self.eta });
+        range::index("eta", self.eta)?;
+        range::absorption(self.sigma_a)?;
+        range::none_negative(LOBE_WEIGHTS, self.lobe_weights)?;
+        let RoughnessScales { tt, trt } = self.roughness_scales;
+        range::within("roughness_scales.tt", tt, 0.1..=8.0, "[0.1, 8]")?;
+        range::within("roughness_scales.trt", trt, 0.1..=8.0, "[0.1, 8]")?;
+        if let Some(layers) = self.cuticle_layers {
+            range::within("cuticle_layers", layers, 0.01..=100.0, "[0.01, 100]")?;
         }
-        for (channel, found) in self.sigma_a.to_array().into_iter().enumerate() {
-            if !(found.is_finite() && found >= 0.0) {
-                return Err(ScatteringError::Absorption { channel, found });
-            }
+        if let Some(film) = self.film {
+            range::index("film.eta", film.eta)?;
+            range::roughness("film.roughness", film.roughness)?;
         }
-        for (lobe, found) in self.lobe_weights.into_iter().enumerate() {
-            if !(found.is_finite() && found >= 0.0) {
-                return Err(ScatteringError::LobeWeight { lobe, found });
-            }
-        }
+        range::within("aspect", self.aspect, 0.1..=1.0, "[0.1, 1]")?;
         Ok(())
     }
 
@@ -129,11 +122,19 @@ impl HairParameters {
     /// which MaterialX's `chiang_hair_bsdf` applies itself (its `roughness_R`, `roughness_TT`, `roughness_TRT`).
     #[must_use]
     pub fn lobe_spreads(&self) -> [[f32; 2]; 3] {
-        let v = longitudinal_variance(f64::from(self.beta_m.max(SMALLEST_ROUGHNESS)));
-        let s = azimuthal_deviation(f64::from(self.beta_n.max(SMALLEST_ROUGHNESS)));
+        let v = longitudinal_variance(f64::from(self.beta_m));
+        let s = azimuthal_deviation(f64::from(self.beta_n));
         [v, 0.25 * v, 4.0 * v].map(|v| [v as f32, s as f32])
     }
 }
+
+const LOBE_WEIGHTS: [&str; 5] = [
+    "lobe_weights.R",
+    "lobe_weights.TT",
+    "lobe_weights.TRT",
+    "lobe_weights.residual",
+    "lobe_weights.scattered",
+];
 
 /// v of R from the roughness along the fibre: Chiang et al. 2016, eq. 7.
 pub(crate) fn longitudinal_variance(beta_m: f64) -> f64 {

@@ -30,12 +30,32 @@ pub(crate) fn not_negative(name: &'static str, found: f32) -> Result<f32, Scatte
     within(name, found, 0.0..=f32::MAX, "[0, infinity)")
 }
 
-/// Absorption coefficients, each finite and at least 0.
+/// Values each finite and at least 0.
+pub(crate) fn none_negative<const N: usize>(
+    names: [&'static str; N],
+    found: [f32; N],
+) -> Result<(), ScatteringError> {
+    names.into_iter().zip(found).try_for_each(|(name, found)| not_negative(name, found).map(|_| ()))
+}
+
+/// Absorption coefficients of a cortex.
 pub(crate) fn absorption(sigma_a: Vec3) -> Result<Vec3, ScatteringError> {
-    for (channel, found) in sigma_a.to_array().into_iter().enumerate() {
-        if !(found.is_finite() && found >= 0.0) {
-            return Err(ScatteringError::Absorption { channel, found });
-        }
-    }
+    none_negative(["sigma_a.r", "sigma_a.g", "sigma_a.b"], sigma_a.to_array())?;
     Ok(sigma_a)
+}
+
+/// Absorption coefficients of a medulla.
+pub(crate) fn medulla_absorption(sigma_a: Vec3) -> Result<(), ScatteringError> {
+    none_negative(["medulla.sigma_a.r", "medulla.sigma_a.g", "medulla.sigma_a.b"], sigma_a.to_array())
+}
+
+/// A roughness. A smoother lobe than 0.001 would be narrower than 0.05 degrees: single precision could not
+/// place it.
+pub(crate) fn roughness(name: &'static str, found: f32) -> Result<f32, ScatteringError> {
+    within(name, found, 1e-3..=1.0, "[0.001, 1]")
+}
+
+/// An index of refraction over that of air.
+pub(crate) fn index(name: &'static str, found: f32) -> Result<f32, ScatteringError> {
+    within(name, found, 1.0001..=3.0, "[1.0001, 3]")
 }

@@ -66,7 +66,7 @@ impl Fibres {
     pub fn material(&self, hit: &Hit) -> (&FibreBcsdf, Absorption) {
         let absorption = match (&self.absorption, place(hit)) {
             (Varying::Constant(absorption), _) => *absorption,
-            (varying, Some(place)) => at(varying, &self.offsets, place, mixed),
+            (varying, Some(place)) => at(varying, &self.offsets, place, |a, b, u| a.toward(b, u)),
             (_, None) => Absorption::default(),
         };
         (&self.bcsdf, absorption)
@@ -97,10 +97,6 @@ fn at<T: Copy>(
             lerp(values[vertex], values[vertex + 1], u)
         }
     }
-}
-
-fn mixed(a: Absorption, b: Absorption, u: f32) -> Absorption {
-    Absorption { cortex: a.cortex.lerp(b.cortex, u), medulla: a.medulla.lerp(b.medulla, u) }
 }
 
 fn transparency(attribute: &Attribute) -> Option<Varying<f32>> {

@@ -22,9 +22,9 @@ pub struct ArnoldHair {
     pub melanin: f32,
     /// Share of pheomelanin, in [0, 1].
     pub melanin_redness: f32,
-    /// Roughness along the fibre, in (0, 1].
+    /// Roughness along the fibre, in [0.001, 1].
     pub roughness: f32,
-    /// Roughness around the fibre, in (0, 1]; of account with `roughness_anisotropic` only.
+    /// Roughness around the fibre, in [0.001, 1]; of account with `roughness_anisotropic` only.
     pub roughness_azimuthal: f32,
     /// Whether the roughness around the fibre is `roughness_azimuthal` and not `roughness`.
     pub roughness_anisotropic: bool,
@@ -77,9 +77,7 @@ impl ArnoldHair {
     pub fn parameters(&self) -> Result<HairParameters, ScatteringError> {
         let azimuthal = if self.roughness_anisotropic { self.roughness_azimuthal } else { self.roughness };
         for (name, found) in [("roughness", self.roughness), ("roughness_azimuthal", azimuthal)] {
-            if !(found > 0.0 && found <= 1.0) {
-                return Err(ScatteringError::Roughness { name, found });
-            }
+            range::roughness(name, found)?;
         }
         range::share("base", self.base)?;
         for channel in self.base_color.to_array() {

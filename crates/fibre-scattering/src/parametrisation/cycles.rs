@@ -38,9 +38,9 @@ pub struct CyclesHair {
     pub tint: Vec3,
     /// Absorption per fibre radius, at least 0.
     pub absorption_coefficient: Vec3,
-    /// Roughness along the fibre, in (0, 1].
+    /// Roughness along the fibre, in [0.001, 1].
     pub roughness: f32,
-    /// Roughness around the fibre, in (0, 1].
+    /// Roughness around the fibre, in [0.001, 1].
     pub radial_roughness: f32,
     /// How much smoother the surface reflects than the rest scatters: R's roughness is `roughness` times
     /// `1 - coat`. In [0, 1), and not so near 1 that R is more than 4 times narrower than the rest.
@@ -81,9 +81,7 @@ impl CyclesHair {
     /// A [`ScatteringError`] naming the first input out of its range. Cycles brings them to the nearer bound.
     pub fn parameters(&self) -> Result<HairParameters, ScatteringError> {
         for (name, found) in [("roughness", self.roughness), ("radial_roughness", self.radial_roughness)] {
-            if !(found > 0.0 && found <= 1.0) {
-                return Err(ScatteringError::Roughness { name, found });
-            }
+            range::roughness(name, found)?;
         }
         let sigma_a = match self.parametrization {
             CyclesParametrization::Color => absorption_from_color(self.color, self.radial_roughness)?,

@@ -146,9 +146,9 @@ impl MaterialXHair {
 /// The inputs of MaterialX's `chiang_hair_roughness` and its defaults.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MaterialXRoughness {
-    /// Roughness along the fibre, in (0, 1]: beta_m.
+    /// Roughness along the fibre, in [0.001, 1]: beta_m.
     pub longitudinal: f32,
-    /// Roughness around the fibre, in (0, 1]: beta_n.
+    /// Roughness around the fibre, in [0.001, 1]: beta_n.
     pub azimuthal: f32,
     /// Factor on TT's deviation, in (0, 8].
     pub scale_tt: f32,
@@ -170,9 +170,7 @@ impl MaterialXRoughness {
     /// A [`ScatteringError`] naming the first input out of its range.
     pub fn pairs(&self) -> Result<[[f32; 2]; 3], ScatteringError> {
         for (name, found) in [("longitudinal", self.longitudinal), ("azimuthal", self.azimuthal)] {
-            if !(found > 0.0 && found <= 1.0) {
-                return Err(ScatteringError::Roughness { name, found });
-            }
+            range::roughness(name, found)?;
         }
         for (name, found) in [("scale_TT", self.scale_tt), ("scale_TRT", self.scale_trt)] {
             range::within(name, found, f32::MIN_POSITIVE..=8.0, "(0, 8]")?;

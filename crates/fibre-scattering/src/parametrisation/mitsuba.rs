@@ -25,9 +25,9 @@ pub struct MitsubaHair {
     pub int_ior: f32,
     /// Index of refraction around it: air, which Mitsuba does not take for 1.
     pub ext_ior: f32,
-    /// Roughness along the fibre, in (0, 1].
+    /// Roughness along the fibre, in [0.001, 1].
     pub longitudinal_roughness: f32,
-    /// Roughness around the fibre, in (0, 1].
+    /// Roughness around the fibre, in [0.001, 1].
     pub azimuthal_roughness: f32,
     /// Tilt of the scales in *degrees*, with Mitsuba's sign, which is pbrt's.
     pub scale_tilt: f32,
@@ -73,9 +73,7 @@ impl MitsubaHair {
             ("longitudinal_roughness", self.longitudinal_roughness),
             ("azimuthal_roughness", self.azimuthal_roughness),
         ] {
-            if !(found > 0.0 && found <= 1.0) {
-                return Err(ScatteringError::Roughness { name, found });
-            }
+            range::roughness(name, found)?;
         }
         let parameters = HairParameters {
             beta_m: self.longitudinal_roughness,

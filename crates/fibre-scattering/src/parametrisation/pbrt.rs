@@ -23,9 +23,9 @@ pub struct PbrtHair {
     pub pheomelanin: Option<f32>,
     /// Index of refraction.
     pub eta: f32,
-    /// Roughness along the fibre, in (0, 1].
+    /// Roughness along the fibre, in [0.001, 1].
     pub beta_m: f32,
-    /// Roughness around the fibre, in (0, 1].
+    /// Roughness around the fibre, in [0.001, 1].
     pub beta_n: f32,
     /// Tilt of the scales in *degrees*, with pbrt's sign: see [`PbrtHair::parameters`].
     pub alpha: f32,
