@@ -14,6 +14,8 @@ pub(crate) struct Chord<T> {
     pub gamma_i: T,
     /// The same inside.
     pub gamma_t: T,
+    /// Sine and cosine of `gamma_i`.
+    pub turn_i: (T, T),
     /// Sine and cosine of `gamma_t`.
     pub turn_t: (T, T),
     /// Length of a path inside over its length in the cross-section: `1 / cos(theta_t)`.
@@ -41,6 +43,7 @@ impl<T: Real> Chord<T> {
             length,
             gamma_i: h.asin(),
             gamma_t: sin_gamma_t.max(-T::ONE).min(T::ONE).asin(),
+            turn_i: (h, cos2_gamma.sqrt()),
             turn_t: (sin_gamma_t, cos_gamma_t),
             stretch: eta2.sqrt() / bent,
         }

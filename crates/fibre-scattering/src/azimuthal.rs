@@ -1,14 +1,58 @@
 //! How light spreads around the fibre: the logistic density of Chiang et al. 2016, cut to one turn.
 
-use crate::real::{Real, four};
+use crate::attenuation::Chord;
+use crate::lanes::Lanes;
+use crate::real::Real;
 
-/// A logistic density around 0, cut to [-pi, pi] and made to integrate to 1 there.
+/// Position of the residual lobe, the only one without an azimuth of its own.
+pub(crate) const RESIDUAL: usize = 3;
+
+/// Where R, TT and TRT leave a smooth fibre, as cosines and sines of their azimuths against that of `wo`.
+///
+/// The angle between a lobe and a direction is taken from the two as vectors: it has no seam then, and where it
+/// is small it is right to its own last digits. The difference of two azimuths is right to those of pi.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Centres<T> {
+    coss: [T; 4],
+    sins: [T; 4],
+}
+
+impl<T: Real> Centres<T> {
+    /// Of a round fibre: `2 p gamma_t - 2 gamma_i + p pi`.
+    pub fn round(chord: &Chord<T>) -> Self {
+        // By the sines and cosines of twice the angles; half a turn for TT is a change of signs.
+        let twice = |(sin, cos): (T, T)| (T::ONE - T::TWO * sin * sin, T::TWO * sin * cos);
+        let (outside, inside) = (twice(chord.turn_i), twice(chord.turn_t));
+        let r = (outside.0, -outside.1);
+        let turned =
+            |from: (T, T)| (from.0 * inside.0 - from.1 * inside.1, from.1 * inside.0 + from.0 * inside.1);
+        let tt = turned(r);
+        let trt = turned(tt);
+        Centres { coss: [r.0, -tt.0, trt.0, T::ONE], sins: [r.1, -tt.1, trt.1, T::ZERO] }
+    }
+
+    /// Of any fibre, from the azimuths of R, TT and TRT.
+    #[allow(dead_code)] // for fibres that are not round
+    pub fn of_azimuths([r, tt, trt]: [T; 3]) -> Self {
+        let (sins, coss) = T::Four::from([r, tt, trt, T::ZERO]).sin_cos();
+        Centres { coss: coss.into(), sins: sins.into() }
+    }
+
+    /// `(cos, sin)` of lobe `p`'s azimuth.
+    pub fn of_lobe(&self, p: usize) -> (T, T) {
+        (self.coss[p], self.sins[p])
+    }
+}
+
+/// A logistic density around 0, cut to [-pi, pi] and made to integrate to 1 there; for the residual lobe
+/// one that is the same all around.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TrimmedLogistic<T> {
     scale: T,
-    inverse_scale: T,
-    /// `1 / (s k)`, k as below.
-    height: T,
+    /// `1 / s` of each lobe.
+    inverse_scales: [T; 4],
+    /// `1 / (s k)` of each lobe, k as below.
+    heights: [T; 4],
     /// The share of the untrimmed density inside the turn: `k = tanh(pi / 2s)`.
     inside: T,
     /// `1 - k`, which `k` itself cannot show for a smooth fibre.
@@ -20,45 +64,39 @@ impl<T: Real> TrimmedLogistic<T> {
     pub fn new(scale: f64) -> Self {
         let edge = (-std::f64::consts::PI / scale).exp();
         let inside = (1.0 - edge) / (1.0 + edge);
+        let (inverse, height) = (T::of(1.0 / scale), T::of(1.0 / (scale * inside)));
         TrimmedLogistic {
             scale: T::of(scale),
-            inverse_scale: T::of(1.0 / scale),
-            height: T::of(1.0 / (scale * inside)),
+            // A logistic without width is a fourth of its height everywhere.
+            inverse_scales: [inverse, inverse, inverse, T::ZERO],
+            heights: [height, height, height, T::of(4.0) / T::TAU],
             inside: T::of(inside),
             outside: T::of(2.0 * edge / (1.0 + edge)),
         }
     }
 
-    /// The density at each `x` in [-pi, pi]. No exponent is positive: nothing overflows.
+    /// Each lobe's density in the azimuth of the vector `[cos, sin]`, of any length, against that of `wo`. No
+    /// exponent is positive: nothing overflows.
     #[inline(always)]
-    pub fn densities(&self, x: [T; 4]) -> [T; 4] {
-        let falls = T::exp_four(four(|p| -x[p].abs() * self.inverse_scale));
-        four(|p| {
-            let below = T::ONE + falls[p];
-            falls[p] * self.height / (below * below)
-        })
+    pub fn densities(&self, centres: &Centres<T>, [cos, sin]: [T; 2]) -> T::Four {
+        let (coss, sins) = (T::Four::from(centres.coss), T::Four::from(centres.sins));
+        let (cos, sin) = (T::Four::splat(cos), T::Four::splat(sin));
+        let along = coss.times_plus(cos, sins * sin);
+        let across = coss * sin - sins * cos;
+        let falls = (along.angle_to(across) * T::Four::from(self.inverse_scales)).exp_of_minus();
+        let below = falls + T::Four::splat(T::ONE);
+        falls * T::Four::from(self.heights) / (below * below)
     }
 
-    /// An angle distributed as [`TrimmedLogistic::densities`] says.
-    pub fn sample(&self, u: T) -> T {
+    /// The ratio whose logarithm, times the scale, is an angle distributed as the density of R, TT and TRT.
+    pub fn odds(&self, u: T) -> T {
         let before = self.outside + T::TWO * self.inside * u;
         let after = self.outside + T::TWO * self.inside * (T::ONE - u);
-        (self.scale * (before / after).ln()).max(-T::PI).min(T::PI)
+        before / after
     }
-}
 
-/// The same angle in [-pi, pi], for angles within a turn of it.
-///
-/// A turn is taken in two parts: the f32 next to it is 1.7e-7 too long, and the gap that leaves
-/// where a smooth fibre's lobe lies across the seam would cost it 3e-4 of its light.
-#[inline(always)]
-pub(crate) fn wrapped<T: Real>(angle: T) -> T {
-    let turn = if angle > T::PI {
-        T::ONE
-    } else if angle < -T::PI {
-        -T::ONE
-    } else {
-        T::ZERO
-    };
-    (angle - turn * T::TAU) - turn * T::TAU_REST
+    /// That angle, in [-pi, pi].
+    pub fn angle(&self, ln_odds: T) -> T {
+        (self.scale * ln_odds).max(-T::PI).min(T::PI)
+    }
 }

@@ -2,15 +2,16 @@
 
 use glam::Vec4;
 
-use crate::exponential::{exp_four, horner};
-use crate::real::four;
+use crate::exponential::exp_of_minus;
+use crate::lanes::{horner, sqrt};
 
-/// To single precision: Abramowitz and Stegun 9.8.1 and 9.8.2, both scaled.
+/// `exp(-fall) exp(-x) I0(x)` to single precision, both at least 0: Abramowitz and Stegun 9.8.1 and 9.8.2.
 ///
-/// `x >= 0`; the relative error stays below 6e-7. Both ranges are worked out and one is kept: four
-/// lobes fall in either, and a branch for each would cost more.
+/// The relative error stays below 6e-7 where `fall` is 0. Both ranges are worked out and one is kept: four
+/// lobes fall in either, and a branch for each would cost more. One exponential serves both: that of the far
+/// range has its `exp(-x)` in the series.
 #[inline(always)]
-pub(crate) fn scaled_i0_four(x: Vec4) -> Vec4 {
+pub(crate) fn exp_of_minus_by_i0(fall: Vec4, x: Vec4) -> Vec4 {
     const NEAR: [f32; 7] =
         [0.004_581_3, 0.036_076_8, 0.265_973_2, 1.206_749_2, 3.089_942_4, 3.515_622_9, 1.0];
     const FAR: [f32; 9] = [
@@ -24,14 +25,14 @@ pub(crate) fn scaled_i0_four(x: Vec4) -> Vec4 {
         0.013_285_92,
         0.398_942_3,
     ];
-    const SEAM: Vec4 = Vec4::splat(3.75);
-    let y = x.min(SEAM) / SEAM;
-    let near = horner(&NEAR, y * y) * exp_four(-x);
-    let beyond = x.max(SEAM);
-    let root = beyond.to_array();
-    let root = Vec4::from_array(four(|p| root[p].sqrt()));
-    let far = horner(&FAR, SEAM / beyond) / root;
-    Vec4::select(x.cmplt(SEAM), near, far)
+    const SEAM: f32 = 3.75;
+    let is_near = x.cmplt(Vec4::splat(SEAM));
+    let exp = exp_of_minus(fall + Vec4::select(is_near, x, Vec4::ZERO));
+    let y = x.min(Vec4::splat(SEAM)) * (1.0 / SEAM);
+    let near = horner(&NEAR, y * y);
+    let inverse = Vec4::ONE / x.max(Vec4::splat(SEAM));
+    let far = horner(&FAR, SEAM * inverse) * sqrt(inverse);
+    exp * Vec4::select(is_near, near, far)
 }
 
 /// To double precision: the power series, whose terms are all positive, up to 30; the asymptotic
@@ -63,7 +64,7 @@ pub(crate) fn scaled_i0_double(x: f64) -> f64 {
 mod tests {
     use glam::Vec4;
 
-    use super::{scaled_i0_double, scaled_i0_four};
+    use super::{exp_of_minus_by_i0, scaled_i0_double};
 
     #[test]
     fn both_precisions_agree() {
@@ -71,10 +72,11 @@ mod tests {
         for step in 0..400_000 {
             let x = 10.0_f32.powf(step as f32 * 3e-5 - 4.0);
             let exact = scaled_i0_double(f64::from(x));
-            worst = worst.max((f64::from(scaled_i0_four(Vec4::splat(x)).x) / exact - 1.0).abs());
+            worst =
+                worst.max((f64::from(exp_of_minus_by_i0(Vec4::ZERO, Vec4::splat(x)).x) / exact - 1.0).abs());
         }
         assert!(worst < 6e-7, "{worst}");
-        assert_eq!(scaled_i0_four(Vec4::ZERO), Vec4::ONE);
+        assert_eq!(exp_of_minus_by_i0(Vec4::ZERO, Vec4::ZERO), Vec4::ONE);
     }
 
     /// Published values: Abramowitz and Stegun, table 9.8, and the seam of the two series.

@@ -4,13 +4,11 @@
 //! and Controllable Hair and Fur Model for Production Path Tracing" (doi:10.1111/cgf.12830).
 
 use crate::attenuation::Chord;
-use crate::azimuthal::{TrimmedLogistic, wrapped};
+use crate::azimuthal::{Centres, RESIDUAL, TrimmedLogistic};
+use crate::lanes::Lanes;
 use crate::longitudinal::{Inclination, Longitudinal, Mirrors};
 use crate::parameters::{HairParameters, azimuthal_deviation, longitudinal_variance};
 use crate::real::{Real, four};
-
-/// Position of the residual lobe, the only one without an azimuth of its own.
-const RESIDUAL: usize = 3;
 
 /// What depends on the material alone.
 #[derive(Debug, Clone, Copy)]
@@ -77,7 +75,7 @@ impl<T: Real> Fibre<T> {
         let hit = Hit {
             turn_o,
             mirrors: Mirrors::new(theta_o, self.tilts),
-            centres: exit_azimuths(&chord),
+            centres: Centres::round(&chord),
             probabilities: probabilities(&attenuations),
             attenuations,
             spread: self.spread,
@@ -101,14 +99,6 @@ fn logistic_scale(beta_n: f64) -> f64 {
 /// its tangents run from tip to root, or its alpha is that of a hair upside down.)
 fn tilts(alpha: f64) -> [f64; 4] {
     [2.0 * alpha, -alpha, -4.0 * alpha, 0.0]
-}
-
-/// The azimuth in [-pi, pi], against that of `wo`, where R, TT and TRT leave a smooth fibre:
-/// 2 p gamma_t - 2 gamma_i + p pi.
-fn exit_azimuths<T: Real>(chord: &Chord<T>) -> [T; 4] {
-    let r = -T::TWO * chord.gamma_i;
-    let inside = T::TWO * chord.gamma_t;
-    [r, wrapped(r + inside + T::PI), wrapped(r + inside + inside), T::ZERO]
 }
 
 /// Chance of each lobe, by what it carries in the channel that is absorbed least.
@@ -140,8 +130,7 @@ fn inclination_and_turn<T: Real>([along, y, z]: [T; 3]) -> (Inclination<T>, [T; 
 pub(crate) struct Hit<T> {
     turn_o: [T; 2],
     mirrors: Mirrors<T>,
-    /// The last is of no account: the residual leaves in all azimuths alike.
-    centres: [T; 4],
+    centres: Centres<T>,
     probabilities: [T; 4],
     pub attenuations: [[T; 3]; 4],
     spread: Spread<T>,
@@ -149,16 +138,30 @@ pub(crate) struct Hit<T> {
 
 impl<T: Real> Hit<T> {
     /// phi_i - phi_o, in [-pi, pi].
+    #[allow(dead_code)] // for fur
     #[inline(always)]
-    pub fn azimuth(&self, [_, y, z]: [T; 3]) -> T {
+    pub fn azimuth(&self, wi: [T; 3]) -> T {
+        let [cos, sin] = self.turned(wi);
+        sin.atan2(cos)
+    }
+
+    /// The part of a direction across the fibre, turned so that `wo` lies at azimuth 0.
+    #[inline(always)]
+    fn turned(&self, [_, y, z]: [T; 3]) -> [T; 2] {
         let [cos_o, sin_o] = self.turn_o;
-        (z * cos_o - y * sin_o).atan2(y * cos_o + z * sin_o)
+        [y * cos_o + z * sin_o, z * cos_o - y * sin_o]
     }
 
     /// The direction at an inclination and an azimuth against that of `wo`.
+    #[allow(dead_code)] // for fur
     #[inline]
     pub fn direction(&self, theta_i: Inclination<T>, phi: T) -> [T; 3] {
         let (sin_phi, cos_phi) = phi.sin_cos();
+        self.direction_of(theta_i, cos_phi, sin_phi)
+    }
+
+    #[inline(always)]
+    fn direction_of(&self, theta_i: Inclination<T>, cos_phi: T, sin_phi: T) -> [T; 3] {
         let [cos_o, sin_o] = self.turn_o;
         let y = theta_i.cos * (cos_phi * cos_o - sin_phi * sin_o);
         let z = theta_i.cos * (sin_phi * cos_o + cos_phi * sin_o);
@@ -167,25 +170,18 @@ impl<T: Real> Hit<T> {
 
     /// M_p N_p of each lobe, all four in step: that is what makes it fast.
     #[inline(always)]
-    fn densities(&self, wi: [T; 3], phi: T) -> [T; 4] {
+    fn densities(&self, wi: [T; 3]) -> [T; 4] {
         let [along, y, z] = wi;
         let theta_i = Inclination { sin: along, cos: (y * y + z * z).sqrt() };
-        let mut around = self.spread.around.densities(four(|p| wrapped(phi - self.centres[p])));
-        around[RESIDUAL] = T::ONE / T::TAU;
+        let around = self.spread.around.densities(&self.centres, self.turned(wi));
         let along = self.spread.along.densities(theta_i, &self.mirrors);
-        four(|p| around[p] * along[p])
+        (around * along).into()
     }
 
     /// f cos(theta_i) per lobe and channel, and the density over solid angle.
     #[inline]
     pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 5], T) {
-        self.evaluate_at(wi, self.azimuth(wi))
-    }
-
-    /// [`Hit::evaluate_with_pdf`] for a direction whose azimuth is known.
-    #[inline(always)]
-    pub fn evaluate_at(&self, wi: [T; 3], phi: T) -> ([[T; 3]; 5], T) {
-        let densities = self.densities(wi, phi);
+        let densities = self.densities(wi);
         let value = |p: usize| {
             let [red, green, blue] = self.attenuations[p];
             let density = densities[p];
@@ -202,7 +198,7 @@ impl<T: Real> Hit<T> {
 
     /// The density over solid angle alone.
     pub fn pdf(&self, wi: [T; 3]) -> T {
-        self.mixed(&self.densities(wi, self.azimuth(wi)))
+        self.mixed(&self.densities(wi))
     }
 
     fn mixed(&self, densities: &[T; 4]) -> T {
@@ -213,10 +209,22 @@ impl<T: Real> Hit<T> {
     /// light.
     pub fn sample_direction(&self, u: [T; 4]) -> Option<([T; 3], usize)> {
         let p = self.chosen(u[0])?;
-        let theta_i = self.spread.along.sample(p, &self.mirrors, [u[1], u[2]]);
-        let phi =
-            if p == RESIDUAL { T::TAU * u[3] } else { self.centres[p] + self.spread.around.sample(u[3]) };
-        Some((self.direction(theta_i, phi), p))
+        let Spread { along, around } = &self.spread;
+        // Both logarithms at once, and then both angles.
+        let drop = along.drop(p, u[1]);
+        let left = T::ONE + drop;
+        let [ln_left, ln_odds, ..]: [T; 4] =
+            T::Four::from([left, around.odds(u[3]), T::ONE, T::ONE]).ln().into();
+        // What rounding took from 1 + drop is given back: a wide lobe's drop is small.
+        let ln_drop = ln_left + (drop - (left - T::ONE)) / left;
+        let phi = if p == RESIDUAL { T::TAU * u[3] } else { around.angle(ln_odds) };
+        let (sins, coss) = T::Four::from([phi, T::TAU * u[2], T::ZERO, T::ZERO]).sin_cos();
+        let ([sin_phi, sin_turn, ..], [cos_phi, cos_turn, ..]): ([T; 4], [T; 4]) = (sins.into(), coss.into());
+        let theta_i = along.sample(p, &self.mirrors, ln_drop, (sin_turn, cos_turn));
+        let (cos, sin) = self.centres.of_lobe(p);
+        let direction =
+            self.direction_of(theta_i, cos_phi * cos - sin_phi * sin, sin_phi * cos + cos_phi * sin);
+        Some((direction, p))
     }
 
     /// The lobe a uniform number falls on; the last that has a chance when rounding leaves none.

@@ -57,6 +57,7 @@
 //! finite unit directions. [`ReferenceBcsdf`] is the same code in `f64`, to measure it by.
 
 mod absorption;
+mod arctangent;
 mod attenuation;
 mod azimuthal;
 mod bcsdf;
@@ -67,7 +68,9 @@ mod far_field;
 mod fibre;
 mod fibre_bcsdf;
 mod fur;
+mod lanes;
 mod lobe;
+mod logarithm;
 mod longitudinal;
 mod medulla;
 mod medulla_table;
@@ -78,6 +81,7 @@ mod range;
 mod real;
 mod reference;
 mod sample;
+mod sine;
 
 pub use absorption::{
     Pigments, absorption_from_color, absorption_from_melanin, absorption_from_pigments, color_from_absorption,

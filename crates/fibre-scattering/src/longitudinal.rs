@@ -1,7 +1,8 @@
 //! How light spreads along the fibre: M_p of d'Eon et al. 2011, "An Energy-Conserving Hair
 //! Reflectance Model" (doi:10.1111/j.1467-8659.2011.01976.x).
 
-use crate::real::{Real, four};
+use crate::lanes::Lanes;
+use crate::real::Real;
 
 /// The sine and cosine of an inclination against the fibre's normal plane; `cos >= 0`.
 #[derive(Debug, Clone, Copy)]
@@ -66,29 +67,39 @@ impl<T: Real> Longitudinal<T> {
     /// exponents for a smooth fibre. Writing the exponent as the squared chord between the two
     /// directions and scaling I0 leaves nothing to cancel, and needs no case for small variance.
     #[inline(always)]
-    pub fn densities(&self, theta_i: Inclination<T>, mirrors: &Mirrors<T>) -> [T; 4] {
-        let falls = T::exp_four(four(|p| {
-            let across = theta_i.cos - mirrors.coss[p];
-            let along = theta_i.sin + mirrors.sins[p];
-            let half_chord = T::of(0.5) * (across * across + along * along);
-            -half_chord * self.inverse_variances[p]
-        }));
-        let bessels =
-            T::scaled_bessel_i0_four(four(|p| theta_i.cos * mirrors.coss[p] * self.inverse_variances[p]));
-        four(|p| falls[p] * bessels[p] * self.scales[p])
+    pub fn densities(&self, theta_i: Inclination<T>, mirrors: &Mirrors<T>) -> T::Four {
+        let (sins, coss) = (T::Four::from(mirrors.sins), T::Four::from(mirrors.coss));
+        let inverse_variances = T::Four::from(self.inverse_variances);
+        let cos_i = T::Four::splat(theta_i.cos);
+        let across = cos_i - coss;
+        let along = T::Four::splat(theta_i.sin) + sins;
+        let half_chords = T::Four::splat(T::of(0.5)) * across.times_plus(across, along * along);
+        let falls = half_chords * inverse_variances;
+        falls.exp_of_minus_by_i0(cos_i * coss * inverse_variances) * T::Four::from(self.scales)
     }
 
-    /// An inclination distributed as lobe `p`'s density says, after d'Eon et al. 2013.
+    /// What [`Longitudinal::sample`] needs the logarithm of, as 1 plus this, for a uniform number.
+    pub fn drop(&self, p: usize, u: T) -> T {
+        u * self.ranges[p]
+    }
+
+    /// An inclination distributed as lobe `p`'s density says, after d'Eon et al. 2013: from the logarithm of
+    /// 1 plus its [`Longitudinal::drop`], and sine and cosine of a turn that is evenly distributed.
     ///
     /// Both coordinates of the point on the cone are formed, not one from the other, so that
     /// the cosine is as good at grazing angles as anywhere.
-    pub fn sample(&self, p: usize, mirrors: &Mirrors<T>, u: [T; 2]) -> Inclination<T> {
+    pub fn sample(
+        &self,
+        p: usize,
+        mirrors: &Mirrors<T>,
+        ln_drop: T,
+        (sin_turn, cos_turn): (T, T),
+    ) -> Inclination<T> {
         let (mirror_sin, mirror_cos) = (mirrors.sins[p], mirrors.coss[p]);
-        let fall = -self.variances[p] * (u[0] * self.ranges[p]).ln_1p();
+        let fall = -self.variances[p] * ln_drop;
         let fall = fall.max(T::ZERO).min(T::TWO);
         let toward = T::ONE - fall;
         let aside = (fall * (T::TWO - fall)).sqrt();
-        let (sin_turn, cos_turn) = (T::TAU * u[1]).sin_cos();
         let along = aside * cos_turn * mirror_cos - toward * mirror_sin;
         let outward = aside * cos_turn * mirror_sin + toward * mirror_cos;
         let sideways = aside * sin_turn;

@@ -3,7 +3,9 @@
 use std::fmt::Debug;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-use crate::{bessel, exponential};
+use glam::{DVec4, Vec4};
+
+use crate::lanes::Lanes;
 
 /// One value per lobe. Written out, and not `array::from_fn` or `map`, which stay calls and keep the
 /// four from becoming one vector.
@@ -13,6 +15,7 @@ pub(crate) fn four<T>(value: impl Fn(usize) -> T) -> [T; 4] {
 }
 
 /// `f32` for rendering, `f64` to know how good that is.
+#[allow(dead_code)] // some of it is fur's
 pub(crate) trait Real:
     Copy
     + Debug
@@ -28,8 +31,8 @@ pub(crate) trait Real:
     const TWO: Self;
     const PI: Self;
     const TAU: Self;
-    /// What `TAU` is short of a full turn.
-    const TAU_REST: Self;
+    /// Four of them, one per lobe.
+    type Four: Lanes<Self>;
 
     fn of(value: f64) -> Self;
     fn abs(self) -> Self;
@@ -38,26 +41,22 @@ pub(crate) trait Real:
     fn sqrt(self) -> Self;
     fn exp(self) -> Self;
     fn exp_m1(self) -> Self;
-    fn ln(self) -> Self;
-    fn ln_1p(self) -> Self;
     fn asin(self) -> Self;
     fn atan2(self, x: Self) -> Self;
     fn sin_cos(self) -> (Self, Self);
     /// `exp(x)` of each `x <= 0`.
     fn exp_four(x: [Self; 4]) -> [Self; 4];
-    /// `exp(-x) I0(x)` of each `x >= 0`.
-    fn scaled_bessel_i0_four(x: [Self; 4]) -> [Self; 4];
 }
 
 macro_rules! real {
-    ($real:ident, $tau_rest:literal, $exp:expr, $bessel:expr) => {
+    ($real:ident, $four:ident) => {
         impl Real for $real {
             const ZERO: Self = 0.0;
             const ONE: Self = 1.0;
             const TWO: Self = 2.0;
             const PI: Self = std::$real::consts::PI;
             const TAU: Self = std::$real::consts::TAU;
-            const TAU_REST: Self = $tau_rest;
+            type Four = $four;
 
             #[inline(always)]
             fn of(value: f64) -> Self {
@@ -83,35 +82,26 @@ macro_rules! real {
             fn exp_m1(self) -> Self {
                 $real::exp_m1(self)
             }
-            fn ln(self) -> Self {
-                $real::ln(self)
-            }
-            fn ln_1p(self) -> Self {
-                $real::ln_1p(self)
-            }
             fn asin(self) -> Self {
                 $real::asin(self)
             }
+            #[inline(always)]
             fn atan2(self, x: Self) -> Self {
-                $real::atan2(self, x)
+                let [angle, ..]: [Self; 4] = Lanes::angle_to($four::splat(x), $four::splat(self)).into();
+                angle.copysign(self)
             }
+            #[inline(always)]
             fn sin_cos(self) -> (Self, Self) {
-                $real::sin_cos(self)
+                let (sin, cos) = Lanes::sin_cos($four::splat(self));
+                (sin.x, cos.x)
             }
             #[inline(always)]
             fn exp_four(x: [Self; 4]) -> [Self; 4] {
-                $exp(x)
-            }
-            #[inline(always)]
-            fn scaled_bessel_i0_four(x: [Self; 4]) -> [Self; 4] {
-                $bessel(x)
+                Lanes::exp_of_minus(-$four::from(x)).into()
             }
         }
     };
 }
 
-real!(f32, -1.748_455_6e-7, |x: [f32; 4]| exponential::exp_four(x.into()).to_array(), |x: [f32; 4]| {
-    bessel::scaled_i0_four(x.into()).to_array()
-});
-real!(f64, 2.449_293_598_294_706_4e-16, |x: [f64; 4]| four(|p| x[p].exp()), |x: [f64; 4]| x
-    .map(bessel::scaled_i0_double));
+real!(f32, Vec4);
+real!(f64, DVec4);
