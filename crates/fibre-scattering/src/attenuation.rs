@@ -4,7 +4,6 @@ use crate::real::Real;
 
 /// The fibre's cross-section as light from one direction meets it at one offset.
 #[derive(Debug, Clone, Copy)]
-#[allow(dead_code)] // two fields wait for fur
 pub(crate) struct Chord<T> {
     /// The share reflected at the surface.
     pub fresnel: T,
@@ -66,7 +65,7 @@ impl<T: Real> Chord<T> {
 }
 
 /// Unpolarised reflectance of a dielectric of `eta^2 = 1 + e` at `cos` of incidence.
-fn fresnel<T: Real>(e: T, cos: T) -> T {
+pub(crate) fn fresnel<T: Real>(e: T, cos: T) -> T {
     let inside = (e + cos * cos).sqrt();
     let eta2 = T::ONE + e;
     let across_below = cos + inside;

@@ -72,11 +72,13 @@ impl<T: Real> Fibre<T> {
             let weight = self.lobe_weights[p];
             [red[p] * weight, green[p] * weight, blue[p] * weight]
         });
+        let (probabilities, most) = probabilities(&attenuations);
         let hit = Hit {
             turn_o,
             mirrors: Mirrors::new(theta_o, self.tilts),
             centres: Centres::round(&chord),
-            probabilities: probabilities(&attenuations),
+            probabilities,
+            most,
             attenuations,
             spread: self.spread,
         };
@@ -106,13 +108,14 @@ fn tilts(alpha: f64) -> [f64; 4] {
 /// No channel of any lobe carries more than that one, so value over pdf never exceeds the sum of
 /// the weighted attenuations there: a path's throughput is bounded by 1 in every channel, and no
 /// lobe that is bright in one channel is starved because it is dark in the others.
-fn probabilities<T: Real>(attenuations: &[[T; 3]; 4]) -> [T; 4] {
+/// The sum they were divided by, too.
+fn probabilities<T: Real>(attenuations: &[[T; 3]; 4]) -> ([T; 4], T) {
     let most = four(|p| {
         let [red, green, blue] = attenuations[p];
         red.max(green).max(blue)
     });
     let sum = most[0] + most[1] + most[2] + most[3];
-    if sum > T::ZERO { most.map(|most| most / sum) } else { [T::ZERO; 4] }
+    (if sum > T::ZERO { most.map(|most| most / sum) } else { [T::ZERO; 4] }, sum)
 }
 
 /// The inclination of a unit direction and the cosine and sine of its azimuth.
@@ -132,13 +135,19 @@ pub(crate) struct Hit<T> {
     mirrors: Mirrors<T>,
     centres: Centres<T>,
     probabilities: [T; 4],
+    /// What all lobes together carry, each in the channel that is absorbed least.
+    most: T,
     pub attenuations: [[T; 3]; 4],
     spread: Spread<T>,
 }
 
 impl<T: Real> Hit<T> {
+    /// What all lobes together carry, each in the channel that is absorbed least.
+    pub fn most(&self) -> T {
+        self.most
+    }
+
     /// phi_i - phi_o, in [-pi, pi].
-    #[allow(dead_code)] // for fur
     #[inline(always)]
     pub fn azimuth(&self, wi: [T; 3]) -> T {
         let [cos, sin] = self.turned(wi);
@@ -153,7 +162,6 @@ impl<T: Real> Hit<T> {
     }
 
     /// The direction at an inclination and an azimuth against that of `wo`.
-    #[allow(dead_code)] // for fur
     #[inline]
     pub fn direction(&self, theta_i: Inclination<T>, phi: T) -> [T; 3] {
         let (sin_phi, cos_phi) = phi.sin_cos();

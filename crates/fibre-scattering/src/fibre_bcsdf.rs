@@ -35,6 +35,7 @@ impl FibreBcsdf {
 
 /// A fibre met by a ray: scattering as a function of the other direction.
 #[derive(Debug, Clone)]
+#[allow(clippy::large_enum_variant)] // one is made per hit: a box would cost more than the bytes
 pub enum FibreScatter<'a> {
     /// Hair.
     Hair(HairScatter),

@@ -68,12 +68,20 @@ mod far_field;
 mod fibre;
 mod fibre_bcsdf;
 mod fur;
+mod fur_model;
+mod fur_reference;
 mod lanes;
 mod lobe;
 mod logarithm;
 mod longitudinal;
 mod medulla;
+mod medulla_bytes;
+mod medulla_density;
+mod medulla_grid;
+mod medulla_row;
+mod medulla_scatter;
 mod medulla_table;
+mod medulla_walk;
 mod parameters;
 mod parametrisation;
 mod per_strand;
@@ -82,6 +90,7 @@ mod real;
 mod reference;
 mod sample;
 mod sine;
+mod surface_of_key;
 
 pub use absorption::{
     Pigments, absorption_from_color, absorption_from_melanin, absorption_from_pigments, color_from_absorption,
@@ -91,8 +100,10 @@ pub use error::ScatteringError;
 pub use far_field::{FarFieldBcsdf, FarFieldScatter};
 pub use fibre_bcsdf::{FibreBcsdf, FibreScatter};
 pub use fur::{FurBcsdf, FurScatter};
+pub use fur_reference::{FurReference, FurReferenceScatter};
 pub use lobe::{Lobe, LobeValues};
 pub use medulla::{FurParameters, Medulla};
+pub use medulla_row::MedullaRow;
 pub use medulla_table::{MedullaKey, MedullaTable};
 pub use parameters::{HairParameters, RoughnessScales, WaterFilm};
 pub use parametrisation::{

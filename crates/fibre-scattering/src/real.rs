@@ -35,6 +35,10 @@ pub(crate) trait Real:
     type Four: Lanes<Self>;
 
     fn of(value: f64) -> Self;
+    /// A count, exactly.
+    fn of_count(count: u16) -> Self;
+    /// The whole part of a value of at least 0.
+    fn whole(self) -> usize;
     fn abs(self) -> Self;
     fn max(self, other: Self) -> Self;
     fn min(self, other: Self) -> Self;
@@ -61,6 +65,14 @@ macro_rules! real {
             #[inline(always)]
             fn of(value: f64) -> Self {
                 value as $real
+            }
+            #[inline(always)]
+            fn of_count(count: u16) -> Self {
+                $real::from(count)
+            }
+            #[inline(always)]
+            fn whole(self) -> usize {
+                self as usize
             }
             #[inline(always)]
             fn abs(self) -> Self {

@@ -1,0 +1,204 @@
+//! Light scattered by the medulla, at one hit: a mixture of the densities of four rows and their classes.
+
+use crate::longitudinal::Inclination;
+use crate::medulla_grid::{ALONG, AROUND, CELLS, Place, STEP_ALONG, STEP_AROUND};
+use crate::medulla_row::{CLASS_SHARES, CLASSES, NODE_SHARES, NODES};
+use crate::medulla_table::MedullaTable;
+use crate::real::{Real, four};
+
+/// What each class of one row lets pass: red, green, blue and the most of them.
+pub(crate) type Passed<T> = [[T; 4]; CLASSES];
+
+/// The passed light of a row for absorption coefficients of cortex and medulla, each at least 0.
+pub(crate) fn passed<T: Real>(table: &MedullaTable, row: usize, [cortex, medulla]: [[T; 3]; 2]) -> Passed<T> {
+    four(|class| {
+        let nodes = &table.nodes[row][class];
+        let channel = |c: usize| passed_through(nodes, &NODE_SHARES[class], cortex[c], medulla[c]);
+        let (red, green, blue) = (channel(0), channel(1), channel(2));
+        [red, green, blue, red.max(green).max(blue)]
+    })
+}
+
+fn passed_through<T: Real>(nodes: &[[f32; 2]; NODES], shares: &[f64; NODES], cortex: T, medulla: T) -> T {
+    let depth = |node: usize| {
+        let [in_cortex, in_medulla] = nodes[node].map(|length| T::of(f64::from(length)));
+        -(cortex * in_cortex + medulla * in_medulla)
+    };
+    let (low, high) = (T::exp_four(four(depth)), T::exp_four(four(|node| depth(node + 4))));
+    (0..4).fold(T::ZERO, |sum, node| {
+        sum + T::of(shares[node]) * low[node] + T::of(shares[node + 4]) * high[node]
+    })
+}
+
+/// Everything passes.
+pub(crate) fn all_passed<T: Real>() -> Passed<T> {
+    [[T::ONE; 4]; CLASSES]
+}
+
+/// The scattered lobe of a fibre met by a ray.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scattered<'a, T> {
+    table: &'a MedullaTable,
+    rows: [usize; 4],
+    /// For each row and class what it scatters in red, green and blue, and its chance to be drawn.
+    parts: [[[T; 4]; CLASSES]; 4],
+    /// All chances together.
+    pub chance: T,
+    /// What is scattered in red, green and blue.
+    pub albedo: [T; 3],
+    /// Azimuth where unscattered light leaves first.
+    centre: T,
+    /// -1 where the ray is the mirror image, around the fibre and along it, of the one the rows stand for.
+    mirrors: [T; 2],
+}
+
+/// Where a direction lies between the knots.
+struct Knots<T> {
+    /// Entries at the corners and the weight of each.
+    entries: [usize; 4],
+    weights: [T; 4],
+}
+
+impl<'a, T: Real> Scattered<'a, T> {
+    /// `share` is what is scattered without absorption (times the lobe's weight); `passed` gives what each
+    /// class of a row lets pass. Chances are not yet against those of other lobes.
+    pub fn new(
+        table: &'a MedullaTable,
+        place: &Place<T>,
+        share: T,
+        passed: impl Fn(usize) -> Passed<T>,
+        centre: T,
+        mirrors: [T; 2],
+    ) -> Self {
+        let parts = four(|corner| {
+            let passed = passed(place.rows[corner]);
+            four(|class| {
+                let weight = share * place.parts[corner] * T::of(CLASS_SHARES[class]);
+                four(|channel| weight * passed[class][channel])
+            })
+        });
+        let sums = parts.iter().flatten().fold([T::ZERO; 4], |sum, part| four(|c| sum[c] + part[c]));
+        let [red, green, blue, chance] = sums;
+        Scattered { table, rows: place.rows, parts, chance, albedo: [red, green, blue], centre, mirrors }
+    }
+
+    /// Makes the chances sum to this.
+    pub fn set_chance(&mut self, chance: T) {
+        let scale = if self.chance > T::ZERO { chance / self.chance } else { T::ZERO };
+        for part in self.parts.iter_mut().flatten() {
+            part[3] = part[3] * scale;
+        }
+        self.chance = chance;
+    }
+
+    /// f cos(theta_i) per channel, and the density of being drawn.
+    #[inline(always)]
+    pub fn evaluate(&self, sin_theta_i: T, phi: T) -> [T; 4] {
+        let knots = self.knots(sin_theta_i, phi);
+        let mut sum = [T::ZERO; 4];
+        for corner in 0..4 {
+            let density = self.densities(self.rows[corner], &knots);
+            for (part, density) in self.parts[corner].iter().zip(density) {
+                sum = four(|channel| sum[channel] + part[channel] * density);
+            }
+        }
+        sum
+    }
+
+    #[inline(always)]
+    fn knots(&self, sin_theta_i: T, phi: T) -> Knots<T> {
+        let [mirror_around, mirror_along] = self.mirrors;
+        let mut turn = mirror_around * (phi - self.centre);
+        // Two directions and a centre, each within half a turn of 0.
+        for _ in 0..2 {
+            turn = if turn < T::ZERO { turn + T::TAU } else { turn };
+        }
+        let around = turn * T::of(1.0 / STEP_AROUND);
+        let column = around.whole();
+        let right = around - T::of(column as f64);
+        let along = (mirror_along * sin_theta_i + T::ONE) * T::of(1.0 / STEP_ALONG);
+        let line = along.max(T::ZERO).whole().min(ALONG - 2);
+        let above = (along - T::of(line as f64)).max(T::ZERO).min(T::ONE);
+        // A count of the 65536 is so much density under its tent; at the ends it is half a tent.
+        let unit = 1.0 / (65536.0 * STEP_AROUND * STEP_ALONG);
+        let height = |line: usize| T::of(if line == 0 || line == ALONG - 1 { 2.0 * unit } else { unit });
+        let (low, high) = ((T::ONE - above) * height(line), above * height(line + 1));
+        let (column, next) = (column % AROUND, (column + 1) % AROUND);
+        let first = line * AROUND;
+        Knots {
+            entries: [first + column, first + next, first + AROUND + column, first + AROUND + next],
+            weights: [low * (T::ONE - right), low * right, high * (T::ONE - right), high * right],
+        }
+    }
+
+    /// Density of each class of a row, per steradian.
+    #[inline(always)]
+    fn densities(&self, row: usize, knots: &Knots<T>) -> [T; CLASSES] {
+        let sums = &self.table.cumulative[row * CELLS..][..CELLS];
+        let mut density = [T::ZERO; CLASSES];
+        for corner in 0..4 {
+            let entry = knots.entries[corner];
+            // The sum before the first is 0, and so is, as it is written, that of the last.
+            let before = sums[if entry == 0 { CELLS - 1 } else { entry - 1 }];
+            let upto = sums[entry];
+            let weight = knots.weights[corner];
+            density =
+                four(|class| density[class] + weight * T::of_count(upto[class].wrapping_sub(before[class])));
+        }
+        density
+    }
+
+    /// The inclination and the azimuth of a direction drawn from three numbers in [0, 1): the first picks row and
+    /// class, the second the entry, the last two the place about its knot. `u[0]` is a part of this
+    /// lobe's chance.
+    pub fn sample(&self, u: [T; 4]) -> (Inclination<T>, T) {
+        let (corner, class) = self.chosen(u[0] * self.chance);
+        let entry = self.entry(self.rows[corner], class, (u[1] * T::of(65536.0)).whole().min(65535));
+        let line = entry / AROUND;
+        let along = match line {
+            0 => half_tent(u[2]),
+            line if line == ALONG - 1 => -half_tent(u[2]),
+            _ => tent(u[2]),
+        };
+        let [mirror_around, mirror_along] = self.mirrors;
+        let sin = (T::of(line as f64) + along) * T::of(STEP_ALONG) - T::ONE;
+        let sin = mirror_along * sin.max(-T::ONE).min(T::ONE);
+        let cos = ((T::ONE - sin) * (T::ONE + sin)).sqrt();
+        let turn = (T::of((entry % AROUND) as f64) + tent(u[3])) * T::of(STEP_AROUND);
+        (Inclination { sin, cos }, self.centre + mirror_around * turn)
+    }
+
+    fn chosen(&self, mut left: T) -> (usize, usize) {
+        let mut last = (0, 0);
+        for corner in 0..4 {
+            for class in 0..CLASSES {
+                let chance = self.parts[corner][class][3];
+                if chance > T::ZERO {
+                    last = (corner, class);
+                    if left < chance {
+                        return last;
+                    }
+                    left = left - chance;
+                }
+            }
+        }
+        last
+    }
+
+    /// The entry that a count below 65536 falls on: the first whose sum is above it.
+    fn entry(&self, row: usize, class: usize, count: usize) -> usize {
+        let sums = &self.table.cumulative[row * CELLS..][..CELLS - 1];
+        sums.partition_point(|sum| usize::from(sum[class]) <= count)
+    }
+}
+
+/// A number in [-1, 1] by the density `1 - |x|`.
+fn tent<T: Real>(u: T) -> T {
+    let u = T::TWO * u;
+    if u < T::ONE { u.sqrt() - T::ONE } else { T::ONE - (T::TWO - u).sqrt() }
+}
+
+/// A number in [0, 1] by the density `2 - 2 x`.
+fn half_tent<T: Real>(u: T) -> T {
+    T::ONE - (T::ONE - u).sqrt()
+}
