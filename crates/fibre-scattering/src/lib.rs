@@ -78,6 +78,7 @@ mod medulla;
 mod medulla_bytes;
 mod medulla_density;
 mod medulla_grid;
+mod medulla_paths;
 mod medulla_row;
 mod medulla_scatter;
 mod medulla_table;

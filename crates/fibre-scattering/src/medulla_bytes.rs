@@ -5,14 +5,15 @@
 
 use crate::error::ScatteringError;
 use crate::medulla_grid::{CELLS, ROWS};
-use crate::medulla_row::{CLASSES, NODES};
+use crate::medulla_paths::{NODES, PathNode, SHARES};
+use crate::medulla_row::CLASSES;
 use crate::medulla_table::{MedullaKey, MedullaTable};
 
 const MAGIC: [u8; 8] = *b"gkmedull";
 const KEY: usize = 7 * 4;
 const HEADER: usize = MAGIC.len() + 4 + KEY;
 const MASSES: usize = ROWS * CELLS * CLASSES * 2;
-const PATHS: usize = ROWS * CLASSES * NODES * 2 * 4;
+const PATHS: usize = ROWS * CLASSES * NODES * 3 * 4;
 
 impl MedullaKey {
     /// The key as bytes, equal for equal keys: what a cache may hash.
@@ -63,8 +64,10 @@ impl MedullaTable {
         for mass in self.cumulative.iter().flatten() {
             bytes.extend_from_slice(&mass.to_le_bytes());
         }
-        for length in self.nodes.iter().flatten().flatten().flatten() {
-            bytes.extend_from_slice(&length.to_le_bytes());
+        for node in self.nodes.iter().flatten().flatten() {
+            for number in [node.cortex, node.medulla, node.share] {
+                bytes.extend_from_slice(&number.to_le_bytes());
+            }
         }
         bytes
     }
@@ -91,12 +94,12 @@ impl MedullaTable {
         for mass in cumulative.iter_mut().flatten() {
             *mass = u16::from_le_bytes(bytes.take()?);
         }
-        let mut nodes = vec![[[[0.0; 2]; NODES]; CLASSES]; ROWS];
-        for length in nodes.iter_mut().flatten().flatten().flatten() {
-            *length = bytes.float()?;
-            if !(length.is_finite() && *length >= 0.0) {
-                return None;
+        let mut nodes = vec![[[PathNode::default(); NODES]; CLASSES]; ROWS];
+        for class in nodes.iter_mut().flatten() {
+            for node in class.iter_mut() {
+                *node = PathNode { cortex: bytes.float()?, medulla: bytes.float()?, share: bytes.float()? };
             }
+            is_sound(class).then_some(())?;
         }
         cumulative.chunks(CELLS).all(rises).then_some(())?;
         Some(MedullaTable::of_parts(key, cumulative, nodes))
@@ -109,6 +112,14 @@ fn rises(row: &[[u16; CLASSES]]) -> bool {
         let sums = row[..CELLS - 1].iter().map(|entry| entry[class]);
         sums.is_sorted() && row[CELLS - 1][class] == 0
     })
+}
+
+/// Whether lengths are lengths and shares sum to 1.
+fn is_sound(class: &[PathNode; NODES]) -> bool {
+    let is_length = |length: f32| length.is_finite() && length >= 0.0;
+    let is_share = |share: f32| (0.0..=1.0).contains(&share) && (share * SHARES).fract() == 0.0;
+    class.iter().all(|node| is_length(node.cortex) && is_length(node.medulla) && is_share(node.share))
+        && class.iter().map(|node| node.share).sum::<f32>() == 1.0
 }
 
 /// What is left to read.

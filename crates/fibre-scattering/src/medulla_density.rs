@@ -15,16 +15,24 @@ pub(crate) fn smoothed(cells: impl Iterator<Item = usize>, symmetric: [bool; 2])
     let mut halves = halves.map(|half| mirrored(half, symmetric));
     let counted = halves.clone();
     let mut error = prediction_error(&halves, &counted);
-    for _ in 0..MOST_PASSES {
-        let around = halves.each_ref().map(smoothed_around);
-        let along = halves.each_ref().map(smoothed_along);
-        let (error_around, error_along) =
-            (prediction_error(&around, &counted), prediction_error(&along, &counted));
-        if error_around.min(error_along) >= error {
+    let (mut around, mut along) = (STRIDES_AROUND.as_slice(), STRIDES_ALONG.as_slice());
+    loop {
+        let tried = [
+            around.first().map(|&stride| halves.each_ref().map(|half| smoothed_around(half, stride))),
+            along.first().map(|&stride| halves.each_ref().map(|half| smoothed_along(half, stride))),
+        ];
+        let errors = tried
+            .each_ref()
+            .map(|tried| tried.as_ref().map_or(f64::INFINITY, |halves| prediction_error(halves, &counted)));
+        if errors[0].min(errors[1]) >= error {
             break;
         }
-        (halves, error) =
-            if error_around <= error_along { (around, error_around) } else { (along, error_along) };
+        let better = usize::from(errors[1] < errors[0]);
+        let [in_turn, in_line] = tried;
+        let (next, strides) = if better == 0 { (in_turn, &mut around) } else { (in_line, &mut along) };
+        let Some(next) = next else { break };
+        (halves, error) = (next, errors[better]);
+        *strides = strides.get(1..).unwrap_or_default();
     }
     let [mut sum, other] = halves;
     for (mass, other) in sum.iter_mut().zip(other) {
@@ -33,8 +41,10 @@ pub(crate) fn smoothed(cells: impl Iterator<Item = usize>, symmetric: [bool; 2])
     sum
 }
 
-/// Past this many passes the density is as broad as the fibre.
-const MOST_PASSES: usize = 200;
+/// How far apart the entries are that one pass after the other brings together. Past the last the
+/// density is as broad as the fibre.
+const STRIDES_AROUND: [usize; 10] = [1, 1, 1, 2, 2, 4, 4, 8, 8, 12];
+const STRIDES_ALONG: [usize; 7] = [1, 1, 1, 2, 2, 4, 4];
 
 /// How far each smoothed half is from the other as counted: the square of the smoothed one's error, but for
 /// a constant.
@@ -63,26 +73,27 @@ fn mirrored(counts: Density, [around, along]: [bool; 2]) -> Density {
     counts
 }
 
-/// Each entry gives a quarter to both neighbours around the fibre.
-fn smoothed_around(masses: &Density) -> Density {
-    (0..CELLS)
-        .map(|cell| {
-            let (line, turn) = (cell / AROUND * AROUND, cell % AROUND);
-            let neighbours = masses[line + (turn + 1) % AROUND] + masses[line + (turn + AROUND - 1) % AROUND];
-            0.5 * masses[cell] + 0.25 * neighbours
-        })
-        .collect()
+/// Each entry gives a quarter to two others around the fibre.
+fn smoothed_around(masses: &Density, stride: usize) -> Density {
+    let mut result = Vec::with_capacity(CELLS);
+    for line in masses.chunks(AROUND) {
+        result.extend((0..AROUND).map(|turn| {
+            let others = line[(turn + stride) % AROUND] + line[(turn + AROUND - stride) % AROUND];
+            0.5 * line[turn] + 0.25 * others
+        }));
+    }
+    result
 }
 
-/// Neighbours along the fibre even out a quarter of their difference; nothing is lost at the ends.
-fn smoothed_along(masses: &Density) -> Density {
+/// Entries along the fibre even out a quarter of their difference; nothing is lost at the ends.
+fn smoothed_along(masses: &Density, stride: usize) -> Density {
     let mut result = masses.clone();
-    for cell in 0..CELLS - AROUND {
-        let next = cell + AROUND;
-        let [here, there] = [cell, next].map(|cell| masses[cell] / width_along(cell / AROUND) as f32);
+    let ahead = stride * AROUND;
+    for cell in 0..CELLS - ahead {
+        let [here, there] = [cell, cell + ahead].map(|cell| masses[cell] / width_along(cell / AROUND) as f32);
         let flow = 0.25 * (there - here);
         result[cell] += flow;
-        result[next] -= flow;
+        result[cell + ahead] -= flow;
     }
     result
 }

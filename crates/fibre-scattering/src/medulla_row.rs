@@ -2,24 +2,16 @@
 
 use crate::medulla_density::{Density, smoothed};
 use crate::medulla_grid::{AROUND, CELLS, STEP_ALONG, STEP_AROUND, ray_of_row};
+use crate::medulla_paths::{NODES, PathNode, path_nodes};
 use crate::medulla_table::MedullaKey;
 use crate::medulla_walk::{Exit, Numbers, Walker};
 
 /// Walks are told apart by the length of their path, so that what is absorbed more may also leave elsewhere.
 pub(crate) const CLASSES: usize = 4;
 
-/// The part of the walks in each class, from the shortest paths to the longest. They and
-/// [`NODE_SHARES`] are sums of powers of two: their sums are exactly 1.
+/// The part of the walks in each class, from the shortest paths to the longest. Sums
+/// of powers of two: they sum to exactly 1.
 pub(crate) const CLASS_SHARES: [f64; CLASSES] = [0.3125, 0.3125, 0.25, 0.125];
-
-/// Pairs of path lengths that stand for those of a class.
-pub(crate) const NODES: usize = 8;
-
-/// The part of a class that each node stands for: four groups by length of path, each cut in two by how
-/// much of it lies in the medulla. The last class has a long tail, and smaller groups towards its end.
-pub(crate) const NODE_SHARES: [[f64; NODES]; CLASSES] = [EVEN, EVEN, EVEN, TAIL];
-const EVEN: [f64; NODES] = [0.125; NODES];
-const TAIL: [f64; NODES] = [0.1875, 0.1875, 0.15625, 0.15625, 0.09375, 0.09375, 0.0625, 0.0625];
 
 /// One row of a [`MedullaTable`](crate::MedullaTable): where walks along one ray left the fibre, and by how
 /// long a path.
@@ -28,8 +20,8 @@ pub struct MedullaRow {
     /// For each entry the sum of the class's masses up to it, in 65536ths of the class; the last, which
     /// is all of it, is 0.
     pub(crate) cumulative: Vec<[u16; CLASSES]>,
-    /// Lengths in cortex and medulla, in fibre radii, class by class.
-    pub(crate) nodes: [[[f32; 2]; NODES]; CLASSES],
+    /// The paths of each class.
+    pub(crate) nodes: [[PathNode; NODES]; CLASSES],
 }
 
 impl MedullaRow {
@@ -40,11 +32,11 @@ impl MedullaRow {
         let (offset, inclination) = ray_of_row(row);
         let symmetric = [offset == 0.0, inclination == 0.0];
         let mut cumulative = vec![[0; CLASSES]; CELLS];
-        let mut nodes = [[[0.0; 2]; NODES]; CLASSES];
+        let mut nodes = [[PathNode::default(); NODES]; CLASSES];
         for (class, exits) in split(&exits, &CLASS_SHARES).into_iter().enumerate() {
             let density = smoothed(exits.iter().map(cell), symmetric);
             accumulate(&density, class, &mut cumulative);
-            nodes[class] = path_nodes(exits, &NODE_SHARES[class]);
+            nodes[class] = path_nodes(exits);
         }
         MedullaRow { cumulative, nodes }
     }
@@ -103,35 +95,6 @@ fn split<'a, T>(all: &'a [T], shares: &[f64]) -> Vec<&'a [T]> {
     parts
 }
 
-/// Few pairs of lengths that absorb as the many of `exits`, sorted by length, do.
-fn path_nodes(exits: &[Exit], shares: &[f64; NODES]) -> [[f32; 2]; NODES] {
-    let mut nodes = [[0.0; 2]; NODES];
-    let groups: Vec<f64> = shares.chunks(2).map(|pair| pair.iter().sum()).collect();
-    for (group, exits) in split(exits, &groups).into_iter().enumerate() {
-        let mut exits = exits.to_vec();
-        let scattered_part = |exit: &Exit| exit.medulla / length(exit).max(f32::MIN_POSITIVE);
-        exits.sort_by(|a, b| scattered_part(a).total_cmp(&scattered_part(b)));
-        for (half, exits) in split(&exits, &[0.5, 0.5]).into_iter().enumerate() {
-            nodes[2 * group + half] = path_node(exits);
-        }
-    }
-    nodes
-}
-
-/// The mean path, shortened to absorb as much as the paths do where one in e passes: the mean itself
-/// would absorb too much everywhere (Jensen's inequality).
-fn path_node(exits: &[Exit]) -> [f32; 2] {
-    let count = exits.len().max(1) as f64;
-    let mean = |value: &dyn Fn(&Exit) -> f64| exits.iter().map(value).sum::<f64>() / count;
-    let lengths = [mean(&|exit| f64::from(exit.cortex)), mean(&|exit| f64::from(exit.medulla))];
-    let whole = lengths[0] + lengths[1];
-    if whole <= 0.0 {
-        return [0.0; 2];
-    }
-    let passed = mean(&|exit| (-f64::from(length(exit)) / whole).exp());
-    lengths.map(|length| (-passed.ln() * length) as f32)
-}
-
 /// Sums of the masses of a class, in 65536ths.
 fn accumulate(density: &Density, class: usize, cumulative: &mut [[u16; CLASSES]]) {
     let total: f64 = density.iter().map(|&mass| f64::from(mass)).sum();
@@ -144,5 +107,40 @@ fn accumulate(density: &Density, class: usize, cumulative: &mut [[u16; CLASSES]]
         let least = if entry + 2 >= CELLS { 1.0 } else { 0.0 };
         let upto = (share * 65536.0).round().clamp(least, 65535.0);
         cumulative[entry][class] = if entry + 1 == CELLS { 0 } else { upto as u16 };
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nodes_absorb_as_the_walks_do() {
+        let key = MedullaKey {
+            kappa: 0.86,
+            sigma_s: 3.15,
+            g: 0.79,
+            eta: 1.49,
+            cuticle_layers: None,
+            film_eta: None,
+            walks: 5000,
+        };
+        for (row, [cortex, medulla]) in [0, 5, 47, 79].into_iter().flat_map(|row| {
+            [[0.4, 0.0], [0.0, 0.4], [2.0, 0.0], [0.4, 0.2], [0.0, 2.0]].map(|sigma| (row, sigma))
+        }) {
+            let passed = |in_cortex: f32, in_medulla: f32| {
+                (-cortex * f64::from(in_cortex) - medulla * f64::from(in_medulla)).exp()
+            };
+            let exits = exits(&key, row);
+            let walked =
+                exits.iter().map(|exit| passed(exit.cortex, exit.medulla)).sum::<f64>() / exits.len() as f64;
+            let mut found = 0.0;
+            for (class, share) in MedullaRow::walk(&key, row).nodes.iter().zip(CLASS_SHARES) {
+                for node in class {
+                    found += share * f64::from(node.share) * passed(node.cortex, node.medulla);
+                }
+            }
+            assert!((found - walked).abs() < 0.004, "{row} {cortex} {medulla}: {found} {walked}");
+        }
     }
 }

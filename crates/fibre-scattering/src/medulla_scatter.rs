@@ -2,7 +2,8 @@
 
 use crate::longitudinal::Inclination;
 use crate::medulla_grid::{ALONG, AROUND, CELLS, Place, STEP_ALONG, STEP_AROUND};
-use crate::medulla_row::{CLASS_SHARES, CLASSES, NODE_SHARES, NODES};
+use crate::medulla_paths::{NODES, PathNode};
+use crate::medulla_row::{CLASS_SHARES, CLASSES};
 use crate::medulla_table::MedullaTable;
 use crate::real::{Real, four};
 
@@ -13,20 +14,18 @@ pub(crate) type Passed<T> = [[T; 4]; CLASSES];
 pub(crate) fn passed<T: Real>(table: &MedullaTable, row: usize, [cortex, medulla]: [[T; 3]; 2]) -> Passed<T> {
     four(|class| {
         let nodes = &table.nodes[row][class];
-        let channel = |c: usize| passed_through(nodes, &NODE_SHARES[class], cortex[c], medulla[c]);
+        let channel = |c: usize| passed_through(nodes, cortex[c], medulla[c]);
         let (red, green, blue) = (channel(0), channel(1), channel(2));
         [red, green, blue, red.max(green).max(blue)]
     })
 }
 
-fn passed_through<T: Real>(nodes: &[[f32; 2]; NODES], shares: &[f64; NODES], cortex: T, medulla: T) -> T {
-    let depth = |node: usize| {
-        let [in_cortex, in_medulla] = nodes[node].map(|length| T::of(f64::from(length)));
-        -(cortex * in_cortex + medulla * in_medulla)
-    };
+fn passed_through<T: Real>(nodes: &[PathNode; NODES], cortex: T, medulla: T) -> T {
+    let single = |number: f32| T::of(f64::from(number));
+    let depth = |node: usize| -(cortex * single(nodes[node].cortex) + medulla * single(nodes[node].medulla));
     let (low, high) = (T::exp_four(four(depth)), T::exp_four(four(|node| depth(node + 4))));
     (0..4).fold(T::ZERO, |sum, node| {
-        sum + T::of(shares[node]) * low[node] + T::of(shares[node + 4]) * high[node]
+        sum + single(nodes[node].share) * low[node] + single(nodes[node + 4].share) * high[node]
     })
 }
 

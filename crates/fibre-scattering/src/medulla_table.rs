@@ -6,7 +6,8 @@
 use crate::error::ScatteringError;
 use crate::medulla::{FurParameters, Medulla};
 use crate::medulla_grid::{CELLS, ROWS};
-use crate::medulla_row::{CLASSES, MedullaRow, NODES, default_walks};
+use crate::medulla_paths::{NODES, PathNode};
+use crate::medulla_row::{CLASSES, MedullaRow, default_walks};
 use crate::parameters::{HairParameters, WaterFilm};
 
 /// What a table is made for: everything that bends or scatters light, nothing that absorbs it.
@@ -98,7 +99,7 @@ impl MedullaKey {
 pub struct MedullaTable {
     key: MedullaKey,
     pub(crate) cumulative: Vec<[u16; CLASSES]>,
-    pub(crate) nodes: Vec<[[[f32; 2]; NODES]; CLASSES]>,
+    pub(crate) nodes: Vec<[[PathNode; NODES]; CLASSES]>,
 }
 
 impl MedullaTable {
@@ -160,7 +161,7 @@ impl MedullaTable {
     pub(crate) fn of_parts(
         key: MedullaKey,
         cumulative: Vec<[u16; CLASSES]>,
-        nodes: Vec<[[[f32; 2]; NODES]; CLASSES]>,
+        nodes: Vec<[[PathNode; NODES]; CLASSES]>,
     ) -> MedullaTable {
         MedullaTable { key, cumulative, nodes }
     }

@@ -1,0 +1,303 @@
+//! Fur: hair without a medulla, energy, sampling, and agreement with walks of another make.
+#![allow(clippy::unwrap_used)] // tests fail by panicking
+
+mod brute_force;
+mod support;
+
+use std::f64::consts::{PI, TAU};
+use std::sync::{Arc, LazyLock};
+
+use brute_force::{Chance, Cylinders, SET_A, SET_B};
+use fibre_scattering::{
+    Absorption, FurBcsdf, FurParameters, FurReference, HairBcsdf, HairParameters, Lobe, Medulla, MedullaKey,
+    MedullaTable,
+};
+use glam::Vec3;
+use support::{Random, direction, single};
+
+fn parameters(cylinders: &Cylinders) -> FurParameters {
+    let hair = HairParameters {
+        eta: cylinders.eta as f32,
+        cuticle_layers: cylinders.layers.map(|layers| layers as f32),
+        ..HairParameters::default()
+    };
+    let medulla = Medulla {
+        kappa: cylinders.kappa as f32,
+        sigma_s: cylinders.sigma_s as f32,
+        g: cylinders.g as f32,
+        ..Medulla::NONE
+    };
+    FurParameters { hair, medulla }
+}
+
+fn table(parameters: &FurParameters, walks: u32) -> Option<Arc<MedullaTable>> {
+    let key = MedullaKey { walks, ..MedullaKey::needed(parameters)? };
+    Some(Arc::new(MedullaTable::build(&key).unwrap()))
+}
+
+/// Sets A and B of the published fits, white, with tables that are good enough to compare.
+static SETS: LazyLock<[(Cylinders, FurParameters, Option<Arc<MedullaTable>>); 2]> = LazyLock::new(|| {
+    [SET_A, SET_B].map(|set| {
+        let parameters = parameters(&set);
+        (set, parameters, table(&parameters, 4000))
+    })
+});
+
+/// Tables of no use but to be exact: with extreme media, from few walks.
+fn rough_materials() -> Vec<(FurParameters, Option<Arc<MedullaTable>>)> {
+    let media =
+        [(0.86, 3.0, 0.8), (0.99, 100.0, 0.99), (0.01, 100.0, -0.99), (0.5, 1e-6, 0.0), (0.9, 50.0, -0.5)];
+    media
+        .into_iter()
+        .flat_map(|(kappa, sigma_s, g)| {
+            [1.0001, 1.55, 3.0].map(|eta| Cylinders { eta, kappa, sigma_s, g, layers: None })
+        })
+        .map(|cylinders| {
+            let parameters = parameters(&cylinders);
+            let table = table(&parameters, 20);
+            (parameters, table)
+        })
+        .collect()
+}
+
+const RAYS: [(f64, f64); 7] =
+    [(0.0, 0.0), (0.3, 20.0), (-0.7, -60.0), (0.999, 45.0), (-1.0, 0.0), (0.5, 89.99), (0.2, -90.0)];
+
+#[test]
+fn without_a_medulla_it_is_hair_to_the_bit() {
+    let hair = HairParameters { sigma_a: Vec3::new(0.1, 0.4, 2.0), ..HairParameters::default() };
+    let sigma_a = Vec3::new(0.3, 0.0, 1.0);
+    let absorption = Absorption { cortex: sigma_a, medulla: Vec3::splat(3.0) };
+    let medullas = [Medulla::NONE, Medulla { sigma_s: 7.0, g: 0.5, sigma_a: Vec3::ONE, ..Medulla::NONE }];
+    let hair = (hair, HairBcsdf::new(&hair).unwrap().with_absorption(sigma_a));
+    for medulla in medullas {
+        let fur = FurBcsdf::new(&FurParameters { hair: hair.0, medulla }, None).unwrap();
+        let mut random = Random(3);
+        for (h, theta) in RAYS {
+            let wo = single(direction(theta.to_radians(), 0.4));
+            let (a, b) = (hair.1.at(wo, h as f32), fur.at(wo, h as f32, absorption));
+            assert_eq!(a.albedo(), b.albedo());
+            for _ in 0..200 {
+                let u = [(); 4].map(|()| random.next() as f32);
+                assert_eq!(a.sample(u), b.sample(u));
+                let wi = a.sample(u).map_or(Vec3::Y, |sample| sample.wi);
+                assert_eq!(a.evaluate_with_pdf(wi), b.evaluate_with_pdf(wi));
+            }
+        }
+    }
+}
+
+#[test]
+fn a_medulla_that_only_absorbs_is_on_the_way_of_tt_and_trt() {
+    let mut fur = parameters(&SET_A);
+    fur.medulla = Medulla { sigma_s: 0.0, sigma_a: Vec3::new(0.2, 1.0, 5.0), ..fur.medulla };
+    fur.hair.sigma_a = Vec3::new(0.5, 0.1, 0.0);
+    let reference = FurReference::new(&fur, None).unwrap();
+    for (h, theta) in [(0.0_f64, 0.0_f64), (0.5, 30.0), (-0.99, -70.0)] {
+        let (sin, cos) = theta.to_radians().sin_cos();
+        let eta = f64::from(fur.hair.eta);
+        let kappa = f64::from(fur.medulla.kappa);
+        let cos_t = (1.0 - (sin / eta).powi(2)).sqrt();
+        let b = h * cos / (eta * cos_t);
+        let s_m = if b.abs() < kappa { (kappa * kappa - b * b).sqrt() } else { 0.0 };
+        let s_c = (1.0 - b * b).sqrt() - s_m;
+        let albedo = reference.at(direction(theta.to_radians(), 0.0), h).albedo();
+        for channel in 0..3 {
+            let [cortex, medulla] = [fur.hair.sigma_a, fur.medulla.sigma_a].map(|s| f64::from(s[channel]));
+            let t = (-2.0 * (s_c * cortex + s_m * medulla) / cos_t).exp();
+            let f = albedo[0][channel];
+            let expected = [f, (1.0 - f).powi(2) * t, (1.0 - f).powi(2) * f * t * t];
+            for (lobe, expected) in expected.into_iter().enumerate() {
+                assert!((albedo[lobe][channel] - expected).abs() < 1e-9, "{h} {theta} {lobe}");
+            }
+            assert_eq!(albedo[4][channel], 0.0);
+        }
+    }
+    // Where next to nothing scatters it is the same.
+    let still = FurBcsdf::new(&fur, None).unwrap();
+    fur.medulla.sigma_s = 1e-7;
+    let scatters = FurBcsdf::new(&fur, table(&fur, 20)).unwrap();
+    let absorption = Absorption { cortex: fur.hair.sigma_a, medulla: fur.medulla.sigma_a };
+    let at =
+        |fur: &FurBcsdf| fur.at(Vec3::Y, 0.3, absorption).evaluate(Vec3::new(0.1, -0.9, 0.2).normalize());
+    for lobe in Lobe::ALL {
+        let (a, b) = (at(&still)[lobe], at(&scatters)[lobe]);
+        assert!((a - b).abs().max_element() <= 1e-5 * (a.max_element() + 0.1), "{lobe:?}: {a} {b}");
+    }
+}
+
+#[test]
+fn a_white_fibre_returns_all_light() {
+    for (parameters, table) in rough_materials() {
+        let fur = FurBcsdf::new(&parameters, table).unwrap();
+        for (h, theta) in RAYS {
+            let wo = single(direction(theta.to_radians(), 1.0));
+            let albedo: Vec3 = fur.at(wo, h as f32, Absorption::default()).albedo().into_iter().sum();
+            assert!((albedo - Vec3::ONE).abs().max_element() < 5e-6, "{parameters:?} {h} {theta}: {albedo}");
+        }
+    }
+}
+
+/// The integral over all directions of a function of azimuth and sine, exact for the scattered lobe: between
+/// its knots that is a product of straight lines, and two points of Gauss suffice.
+fn integral(centre: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
+    let (around, along) = (TAU / 48.0, 2.0 / 15.0);
+    let points = [0.5 - 0.75_f64.sqrt() / 3.0 * 1.0, 0.5 + 0.75_f64.sqrt() / 3.0];
+    let mut sum = 0.0;
+    for (i, j) in (0..48).flat_map(|i| (0..15).map(move |j| (i, j))) {
+        for (a, b) in points.iter().flat_map(|a| points.iter().map(move |b| (a, b))) {
+            let phi = centre + (f64::from(i) + a) * around;
+            sum += f(phi, (f64::from(j) + b) * along - 1.0) * around * along / 4.0;
+        }
+    }
+    sum
+}
+
+/// Azimuth where unscattered light leaves first.
+fn centre(parameters: &FurParameters, h: f64, theta: f64) -> f64 {
+    let (sin, cos) = theta.to_radians().sin_cos();
+    let eta = f64::from(parameters.hair.eta);
+    let bent = (eta * eta - sin * sin).sqrt() / cos;
+    2.0 * (h / bent).asin() - 2.0 * h.asin() + PI
+}
+
+#[test]
+fn the_scattered_lobe_integrates_to_its_albedo() {
+    for (mut parameters, table) in rough_materials() {
+        parameters.hair.sigma_a = Vec3::new(0.0, 0.2, 3.0);
+        parameters.medulla.sigma_a = Vec3::new(0.0, 0.0, 1.0);
+        let fur = FurReference::new(&parameters, table).unwrap();
+        for (h, theta) in [(0.0, 0.0), (0.35, 30.0), (-0.2, 50.0), (-0.8, -75.0)] {
+            let hit = fur.at(direction(theta_radians(theta), 0.0), h);
+            let centre = centre(&parameters, h, theta);
+            for channel in 0..3 {
+                let found = integral(centre, |phi, sin| {
+                    hit.evaluate_with_pdf(direction(sin.asin(), phi)).0[4][channel]
+                });
+                let expected = hit.albedo()[4][channel];
+                assert!((found - expected).abs() < 1e-9, "{parameters:?} {h} {theta}: {found} {expected}");
+            }
+        }
+    }
+}
+
+fn theta_radians(degrees: f64) -> f64 {
+    degrees.to_radians()
+}
+
+#[test]
+fn absorption_darkens_and_nothing_is_not_a_number() {
+    let sigmas = [0.0, 1e-6, 0.01, 1.0, 30.0, 1e4, 1e30];
+    for (parameters, table) in rough_materials() {
+        let fur = FurBcsdf::new(&parameters, table).unwrap();
+        let mut random = Random(8);
+        for (h, theta) in RAYS {
+            let wo = single(direction(theta.to_radians(), 1.0));
+            let mut before = [1.0 + 1e-5; 2];
+            for sigma in sigmas {
+                let absorption = Absorption {
+                    cortex: Vec3::new(sigma, 0.0, sigma),
+                    medulla: Vec3::new(0.0, sigma, sigma),
+                };
+                let hit = fur.at(wo, h as f32, absorption);
+                let albedo: Vec3 = hit.albedo().into_iter().sum();
+                for (channel, before) in before.iter_mut().enumerate() {
+                    assert!(albedo[channel] >= 0.0 && albedo[channel] <= *before + 1e-6, "{albedo}");
+                    *before = albedo[channel];
+                }
+                for _ in 0..20 {
+                    let u = [(); 4].map(|()| random.next() as f32);
+                    let Some(sample) = hit.sample(u) else { continue };
+                    assert!(sample.values.sum().is_finite() && sample.wi.is_normalized(), "{sample:?}");
+                    assert!(sample.weight().max_element() <= 1.0 + 1e-4, "{sample:?}");
+                    assert_eq!((sample.values, sample.pdf), hit.evaluate_with_pdf(sample.wi));
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn samples_follow_the_density() {
+    const COUNT: usize = 60_000;
+    const CELLS: (usize, usize) = (16, 10);
+    let absorption = Absorption { cortex: Vec3::new(0.0, 0.2, 0.6), medulla: Vec3::new(0.3, 0.0, 0.6) };
+    for (number, (_, parameters, table)) in SETS.iter().enumerate() {
+        let fur = FurBcsdf::new(parameters, table.clone()).unwrap();
+        for (h, theta) in [(0.1, 10.0), (-0.6, -50.0), (0.95, 80.0)] {
+            let hit = fur.at(single(direction(f64::to_radians(theta), 0.0)), h as f32, absorption);
+            let cell = |phi: f64, sin: f64| {
+                let around = (phi.rem_euclid(TAU) / TAU * CELLS.0 as f64) as usize;
+                let along = ((sin + 1.0) / 2.0 * CELLS.1 as f64) as usize;
+                around.min(CELLS.0 - 1) * CELLS.1 + along.min(CELLS.1 - 1)
+            };
+            let mut expected = vec![0.0; CELLS.0 * CELLS.1];
+            let fine = (CELLS.0 * 40, CELLS.1 * 40);
+            for i in 0..fine.0 {
+                for j in 0..fine.1 {
+                    let phi = (i as f64 + 0.5) / fine.0 as f64 * TAU;
+                    let sin = (j as f64 + 0.5) / fine.1 as f64 * 2.0 - 1.0;
+                    let pdf = f64::from(hit.pdf(single(direction(sin.asin(), phi))));
+                    expected[cell(phi, sin)] += pdf * 2.0 * TAU / (fine.0 * fine.1) as f64;
+                }
+            }
+            let total: f64 = expected.iter().sum();
+            assert!((total - 1.0).abs() < 1e-3, "{total}");
+            let mut counts = vec![0.0; expected.len()];
+            let mut random = Random(77 + number as u64);
+            for _ in 0..COUNT {
+                let u = [(); 4].map(|()| random.next() as f32);
+                let wi = hit.sample(u).unwrap().wi.as_dvec3();
+                counts[cell(wi.z.atan2(wi.y), wi.x)] += 1.0;
+            }
+            let (mut chi, mut degrees) = (0.0, -1.0);
+            for (count, expected) in counts.iter().zip(&expected) {
+                let expected = expected / total * COUNT as f64;
+                if expected > 5.0 {
+                    chi += (count - expected).powi(2) / expected;
+                    degrees += 1.0;
+                }
+            }
+            let deviate = (chi - degrees) / f64::sqrt(2.0 * degrees);
+            assert!(deviate < 5.0, "{h} {theta}: {chi} for {degrees}");
+        }
+    }
+}
+
+/// Cortex and medulla.
+const ABSORPTIONS: [[f64; 2]; 8] =
+    [[0.0, 0.0], [0.4, 0.0], [0.0, 0.2], [0.39, 0.21], [0.05, 0.05], [2.0, 0.0], [0.0, 2.0], [3.0, 3.0]];
+
+#[test]
+fn albedos_are_those_of_an_independent_walk() {
+    const WALKS: u64 = 40_000;
+    let mut worst = 0.0_f64;
+    for (set, parameters, table) in SETS.iter() {
+        let fur = FurReference::new(parameters, table.clone()).unwrap();
+        let mut errors = [[0.0; 2]; 8];
+        for (h, theta) in [(0.0, 0.0), (0.4, 25.0), (-0.8, 0.0), (0.6, -70.0)] {
+            let wo = direction(theta_radians(theta), 0.0);
+            let mut chance = Chance::new(91);
+            let mut walked = [0.0; 8];
+            for _ in 0..WALKS {
+                let outcome = set.walk(wo, h, &mut chance);
+                for (sum, absorption) in walked.iter_mut().zip(ABSORPTIONS) {
+                    *sum += outcome.passed(absorption) / WALKS as f64;
+                }
+            }
+            for (index, [cortex, medulla]) in ABSORPTIONS.into_iter().enumerate() {
+                let albedo = fur.at_absorbing(wo, h, [[cortex; 3], [medulla; 3]]).albedo();
+                let albedo: f64 = albedo.iter().map(|lobe| lobe[0]).sum();
+                worst = worst.max((albedo - walked[index]).abs());
+                errors[index][0] += albedo;
+                errors[index][1] += walked[index];
+            }
+        }
+        for (absorption, [table, walk]) in ABSORPTIONS.iter().zip(errors) {
+            println!("{absorption:?}: {:+.2} %", 100.0 * (table / walk - 1.0));
+            assert!((table / walk - 1.0).abs() < 0.01, "{absorption:?}: {table} {walk}");
+        }
+    }
+    println!("worst difference {worst}");
+    assert!(worst < 0.01, "{worst}");
+}
