@@ -84,7 +84,7 @@ impl MedullaKey {
             return Err(ScatteringError::OutOfRange { name, found: self.walks as f32, range });
         }
         for (name, found, range) in
-            [("kappa", self.kappa, "(0, 0.99]"), ("medulla sigma_s", self.sigma_s, "(0, 100]")]
+            [("medulla.kappa", self.kappa, "(0, 0.99]"), ("medulla.sigma_s", self.sigma_s, "(0, 100]")]
         {
             if found <= 0.0 {
                 return Err(ScatteringError::OutOfRange { name, found, range });

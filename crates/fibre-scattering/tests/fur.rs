@@ -35,8 +35,10 @@ fn table(parameters: &FurParameters, walks: u32) -> Option<Arc<MedullaTable>> {
     Some(Arc::new(MedullaTable::build(&key).unwrap()))
 }
 
+type Set = (Cylinders, FurParameters, Option<Arc<MedullaTable>>);
+
 /// Sets A and B of the published fits, white, with tables that are good enough to compare.
-static SETS: LazyLock<[(Cylinders, FurParameters, Option<Arc<MedullaTable>>); 2]> = LazyLock::new(|| {
+static SETS: LazyLock<[Set; 2]> = LazyLock::new(|| {
     [SET_A, SET_B].map(|set| {
         let parameters = parameters(&set);
         (set, parameters, table(&parameters, 4000))
@@ -67,9 +69,9 @@ const RAYS: [(f64, f64); 7] =
 fn without_a_medulla_it_is_hair_to_the_bit() {
     let hair = HairParameters { sigma_a: Vec3::new(0.1, 0.4, 2.0), ..HairParameters::default() };
     let sigma_a = Vec3::new(0.3, 0.0, 1.0);
-    let absorption = Absorption { cortex: sigma_a, medulla: Vec3::splat(3.0) };
+    let absorption = Absorption::new(sigma_a, Vec3::splat(3.0)).unwrap();
     let medullas = [Medulla::NONE, Medulla { sigma_s: 7.0, g: 0.5, sigma_a: Vec3::ONE, ..Medulla::NONE }];
-    let hair = (hair, HairBcsdf::new(&hair).unwrap().with_absorption(sigma_a));
+    let hair = (hair, HairBcsdf::new(&hair).unwrap().with_absorption(absorption));
     for medulla in medullas {
         let fur = FurBcsdf::new(&FurParameters { hair: hair.0, medulla }, None).unwrap();
         let mut random = Random(3);
@@ -117,7 +119,7 @@ fn a_medulla_that_only_absorbs_is_on_the_way_of_tt_and_trt() {
     let still = FurBcsdf::new(&fur, None).unwrap();
     fur.medulla.sigma_s = 1e-7;
     let scatters = FurBcsdf::new(&fur, table(&fur, 20)).unwrap();
-    let absorption = Absorption { cortex: fur.hair.sigma_a, medulla: fur.medulla.sigma_a };
+    let absorption = Absorption::new(fur.hair.sigma_a, fur.medulla.sigma_a).unwrap();
     let at =
         |fur: &FurBcsdf| fur.at(Vec3::Y, 0.3, absorption).evaluate(Vec3::new(0.1, -0.9, 0.2).normalize());
     for lobe in Lobe::ALL {
@@ -195,10 +197,8 @@ fn absorption_darkens_and_nothing_is_not_a_number() {
             let wo = single(direction(theta.to_radians(), 1.0));
             let mut before = [1.0 + 1e-5; 2];
             for sigma in sigmas {
-                let absorption = Absorption {
-                    cortex: Vec3::new(sigma, 0.0, sigma),
-                    medulla: Vec3::new(0.0, sigma, sigma),
-                };
+                let absorption =
+                    Absorption::new(Vec3::new(sigma, 0.0, sigma), Vec3::new(0.0, sigma, sigma)).unwrap();
                 let hit = fur.at(wo, h as f32, absorption);
                 let albedo: Vec3 = hit.albedo().into_iter().sum();
                 for (channel, before) in before.iter_mut().enumerate() {
@@ -221,7 +221,7 @@ fn absorption_darkens_and_nothing_is_not_a_number() {
 fn samples_follow_the_density() {
     const COUNT: usize = 60_000;
     const CELLS: (usize, usize) = (16, 10);
-    let absorption = Absorption { cortex: Vec3::new(0.0, 0.2, 0.6), medulla: Vec3::new(0.3, 0.0, 0.6) };
+    let absorption = Absorption::new(Vec3::new(0.0, 0.2, 0.6), Vec3::new(0.3, 0.0, 0.6)).unwrap();
     for (number, (_, parameters, table)) in SETS.iter().enumerate() {
         let fur = FurBcsdf::new(parameters, table.clone()).unwrap();
         for (h, theta) in [(0.1, 10.0), (-0.6, -50.0), (0.95, 80.0)] {
