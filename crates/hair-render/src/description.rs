@@ -25,6 +25,10 @@ pub struct HairMaterial {
     pub fibre: Material,
     /// What the groom's transparency does.
     pub transparency: Transparency,
+    /// For looking into a material, not for pictures: one offset across the fibre, in -1..1, in place of
+    /// the one each ray has. Where a fibre is met is geometry; fixing it takes the variation across the
+    /// fibre away (the "shift" of some older shaders, where -1 and 1 are all mirror).
+    pub fixed_offset: Option<f32>,
 }
 
 /// Strands and how they scatter.

@@ -1,52 +1,50 @@
 //! The strands of one groom as the render loop needs them: where a hit is, what it scatters like.
 
-use fibre_material::{Dressed, Field, Varying};
-use fibre_scattering::{
-    Absorption, FarFieldBcsdf, FibreBcsdf, FibreScatter, FurBcsdf, HairBcsdf, MedullaKey, ScatteringError,
-};
-use glam::Vec3;
-use groom::{Attribute, Groom, Values, names};
+use fibre_material::Varying;
+use fibre_scattering::{Absorption, HairParameters};
+use glam::{DVec3, Vec3};
+use groom::{Attribute, Groom, UpAxis, Values, names};
 use strand_tracing::{Hit, HitKind, Primitive};
 
+use crate::fibre_hit::FibrePoint;
+use crate::models::Models;
 use crate::{HairMaterial, RenderError, Transparency};
 
 /// The material of a groom's fibres, looked up by hit.
 #[derive(Debug)]
 pub(crate) struct Fibres {
-    bcsdf: FibreBcsdf,
+    models: Models,
     absorption: Varying<Absorption>,
     transparency: Option<Varying<f32>>,
+    fixed_offset: Option<f32>,
+    /// Roughness around the fibre, of the material as a whole.
+    beta_n: f32,
+    /// For each strand, roughly where the larger axis of its cross-section points; empty for round fibres.
+    major_axes: Vec<Vec3>,
     /// Only kept where something varies by vertex.
     offsets: Vec<u32>,
 }
 
 impl Fibres {
     pub fn new(object: usize, groom: &Groom, material: &HairMaterial) -> Result<Self, RenderError> {
-        let Dressed { parameters, absorption, field, .. } =
+        if let Some(h) = material.fixed_offset.filter(|h| !(-1.0..=1.0).contains(h)) {
+            return Err(RenderError::argument("fixed offset", h, "-1..1 fibre radii"));
+        }
+        let dressed =
             material.fibre.dress(groom).map_err(|source| RenderError::Material { object, source })?;
-        let refused = |source: ScatteringError| RenderError::Scattering { object, source };
-        let bcsdf = match (field, MedullaKey::needed(&parameters)) {
-            (_, Some(key)) => {
-                let table =
-                    medulla_tables::table(&key).map_err(|source| RenderError::Table { object, source })?;
-                FibreBcsdf::Fur(FurBcsdf::new(&parameters, Some(table)).map_err(refused)?)
-            }
-            (_, None) if parameters.medulla.kappa > 0.0 => {
-                FibreBcsdf::Fur(FurBcsdf::new(&parameters, None).map_err(refused)?)
-            }
-            (Field::Far { nodes }, None) => {
-                FibreBcsdf::FarField(FarFieldBcsdf::new(&parameters.hair, nodes).map_err(refused)?)
-            }
-            (Field::Near, None) => FibreBcsdf::Hair(HairBcsdf::new(&parameters.hair).map_err(refused)?),
-        };
+        let models = Models::new(object, &dressed)?;
         let transparency = match material.transparency {
             Transparency::Ignored => None,
             Transparency::Stochastic => groom.attribute(names::TRANSPARENCY).and_then(transparency),
         };
+        let HairParameters { beta_n, aspect, .. } = dressed.parameters.hair;
+        let major_axes = if aspect >= 1.0 { Vec::new() } else { major_axes(groom) };
+        let absorption = dressed.absorption;
         let by_vertex =
             matches!(absorption, Varying::Vertex(_)) || matches!(transparency, Some(Varying::Vertex(_)));
         let offsets = if by_vertex { groom.offsets().to_vec() } else { Vec::new() };
-        Ok(Fibres { bcsdf, absorption, transparency, offsets })
+        let fixed_offset = material.fixed_offset;
+        Ok(Fibres { models, absorption, transparency, fixed_offset, beta_n, major_axes, offsets })
     }
 
     /// How likely a ray passes the fibre untouched at this hit.
@@ -62,15 +60,64 @@ impl Fibres {
         self.transparency.is_some()
     }
 
-    /// The material at a hit, and the absorption found there.
-    pub fn material(&self, hit: &Hit) -> (&FibreBcsdf, Absorption) {
-        let absorption = match (&self.absorption, place(hit)) {
+    /// The roughness around the fibre that Chiang's fit of colours asks for.
+    pub fn beta_n(&self) -> f32 {
+        self.beta_n
+    }
+
+    /// Gives all strands one absorption of the cortex, and returns what they had. The medulla's stays where
+    /// it is the same for all, and becomes its mean where it is not.
+    pub fn set_cortex(&mut self, cortex: Vec3) -> Varying<Absorption> {
+        let medulla = match &self.absorption {
+            Varying::Constant(absorption) => absorption.medulla,
+            Varying::Strand(all) | Varying::Vertex(all) => {
+                let sum: DVec3 = all.iter().map(|a| a.medulla.as_dvec3()).sum();
+                (sum / all.len().max(1) as f64).as_vec3()
+            }
+        };
+        self.set_absorption(Varying::Constant(Absorption { cortex, medulla }))
+    }
+
+    /// Puts another absorption in place, and returns the one before.
+    pub fn set_absorption(&mut self, absorption: Varying<Absorption>) -> Varying<Absorption> {
+        std::mem::replace(&mut self.absorption, absorption)
+    }
+
+    /// What the fibre is like at a hit.
+    pub fn point(&self, hit: &Hit) -> FibrePoint<'_> {
+        let place = place(hit);
+        let absorption = match (&self.absorption, place) {
             (Varying::Constant(absorption), _) => *absorption,
             (varying, Some(place)) => at(varying, &self.offsets, place, |a, b, u| a.toward(b, u)),
             (_, None) => Absorption::default(),
         };
-        (&self.bcsdf, absorption)
+        let strand = place.map_or(0, |(strand, ..)| strand);
+        FibrePoint {
+            material: self.models.of(strand),
+            absorption,
+            fixed_offset: self.fixed_offset,
+            major_axis: self.major_axes.get(strand as usize).copied(),
+        }
     }
+}
+
+/// A direction across each strand, turned about it by chance: where an elliptical fibre is wide.
+///
+/// Nobody measures how fibres lie in their follicles, and a groom seldom says; the direction belongs to the
+/// strand, so that its frame does not turn from hit to hit.
+fn major_axes(groom: &Groom) -> Vec<Vec3> {
+    let axis = |strand: usize| {
+        let points = groom.strand(strand);
+        let chord = match (points.first(), points.last()) {
+            (Some(&root), Some(&tip)) => (tip - root).try_normalize().unwrap_or(Vec3::Y),
+            _ => Vec3::Y,
+        };
+        let chord = groom.up_axis.rotate(chord, UpAxis::Y);
+        let (across, other) = chord.any_orthonormal_pair();
+        let angle = std::f32::consts::TAU * groom::random(0, strand as u32, "cross-section");
+        across * angle.cos() + other * angle.sin()
+    };
+    (0..groom.strand_count()).map(axis).collect()
 }
 
 /// Strand, segment and how far along it.
@@ -106,43 +153,4 @@ fn transparency(attribute: &Attribute) -> Option<Varying<f32>> {
     let varying = Varying::new(attribute.domain, values)?;
     // Opaque hair needs no look-up.
     (!matches!(varying, Varying::Constant(0.0))).then_some(varying)
-}
-
-/// A fibre at a hit: the scattering function and the frame it is stated in.
-pub(crate) struct FibreHit<'a> {
-    scatter: FibreScatter<'a>,
-    /// Along the fibre, towards the viewer, and across; the bcsdf's x, y and z.
-    axes: [Vec3; 3],
-}
-
-impl<'a> FibreHit<'a> {
-    /// `toward` is the unit direction back along the ray that hit.
-    pub fn new(
-        (material, absorption): (&'a FibreBcsdf, Absorption),
-        tangent: Vec3,
-        h: f32,
-        toward: Vec3,
-    ) -> Self {
-        // The azimuth of the viewer is 0 by the choice of axes. `h` counts along z x x of the tracer's
-        // frame, which is the negative of the third axis here: light that enters at positive h leaves
-        // towards negative z, as the geometric reflection has it.
-        let along = toward.dot(tangent);
-        let facing =
-            (toward - tangent * along).try_normalize().unwrap_or_else(|| tangent.any_orthonormal_vector());
-        let axes = [tangent, facing, tangent.cross(facing)];
-        let wo = Vec3::new(along, toward.dot(facing), 0.0).normalize();
-        FibreHit { scatter: material.at(wo, h, absorption), axes }
-    }
-
-    pub fn scatter(&self) -> &FibreScatter<'a> {
-        &self.scatter
-    }
-
-    pub fn to_fibre(&self, v: Vec3) -> Vec3 {
-        Vec3::from_array(self.axes.map(|axis| axis.dot(v)))
-    }
-
-    pub fn to_world(&self, v: Vec3) -> Vec3 {
-        (self.axes[0] * v.x + self.axes[1] * v.y + self.axes[2] * v.z).normalize()
-    }
 }

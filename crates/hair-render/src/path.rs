@@ -3,7 +3,7 @@
 use glam::Vec3;
 use strand_tracing::{Hit, HitKind, Primitive, Ray};
 
-use crate::fibres::FibreHit;
+use crate::fibre_hit::FibreHit;
 use crate::sampler::Sampler;
 use crate::surface::SurfaceHit;
 use crate::{Background, LightSampling, RenderSettings, Scene};
@@ -19,6 +19,8 @@ const BACKGROUND: usize = LOBES + 1;
 pub(crate) struct PathLight {
     pub parts: [Vec3; PARTS],
     pub alpha: f32,
+    /// The hair object seen, where it was hair.
+    pub fibre: Option<u32>,
 }
 
 /// Rays traced, by kind.
@@ -96,6 +98,9 @@ impl<'a> PathTracer<'a> {
             return light;
         };
         light.alpha = 1.0;
+        if let Primitive::Segment { object, .. } = hit.primitive {
+            light.fibre = Some(object);
+        }
         let (first, values) = self.scatter_on(hit, direction, sampler);
         match first {
             FirstKind::Fibre => light.parts[..LOBES].copy_from_slice(&values),
@@ -172,8 +177,8 @@ impl<'a> PathTracer<'a> {
     fn vertex(&self, hit: &Hit, toward: Vec3) -> Vertex<'a> {
         match (hit.kind, hit.primitive) {
             (HitKind::Segment { tangent, h, .. }, Primitive::Segment { object, .. }) => {
-                let material = self.scene.fibres[object as usize].material(hit);
-                Vertex::Fibre(Box::new(FibreHit::new(material, tangent, h, toward)))
+                let point = self.scene.fibres[object as usize].point(hit);
+                Vertex::Fibre(Box::new(FibreHit::new(point, tangent, h, toward)))
             }
             (_, Primitive::Triangle { object, .. }) => {
                 Vertex::Surface(self.scene.surfaces[object as usize].at(hit, toward))

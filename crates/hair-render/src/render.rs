@@ -30,11 +30,7 @@ pub fn render(
 ) -> Result<Frame, RenderError> {
     settings.check()?;
     let start = Instant::now();
-    let threads = settings.threads.unwrap_or(0);
-    let pool = rayon::ThreadPoolBuilder::new()
-        .num_threads(threads)
-        .build()
-        .map_err(|fault| RenderError::Threads { threads, reason: fault.to_string() })?;
+    let pool = settings.pool()?;
     let work = Work {
         scene,
         settings,

@@ -98,6 +98,15 @@ impl RenderSettings {
         Ok(())
     }
 
+    /// The threads that work.
+    pub(crate) fn pool(&self) -> Result<rayon::ThreadPool, RenderError> {
+        let threads = self.threads.unwrap_or(0);
+        rayon::ThreadPoolBuilder::new()
+            .num_threads(threads)
+            .build()
+            .map_err(|fault| RenderError::Threads { threads, reason: fault.to_string() })
+    }
+
     /// The same settings with one more pass.
     #[must_use]
     pub fn with_aov(mut self, aov: Aov) -> Self {

@@ -26,7 +26,7 @@ fn mirror(groom: Groom) -> HairObject {
     };
     let color = HairColor::Absorption(Vec3::ZERO);
     let fibre = Material { parameters, color, ..Default::default() };
-    HairObject { groom, material: HairMaterial { fibre, transparency: Transparency::Ignored } }
+    HairObject { groom, material: HairMaterial { fibre, ..Default::default() } }
 }
 
 /// A fibre lit by one far, small light must glint where the law of reflection on its round surface says,

@@ -297,7 +297,7 @@ pub struct Render {
     pub seed: u64,
     /// Scatterings after the first before a path is cut.
     pub max_bounces: u32,
-    /// Passes beside beauty and alpha: R, TT, TRT, residual, surface, background.
+    /// Passes beside beauty and alpha: R, TT, TRT, residual, scattered, surface, background.
     pub aovs: Vec<String>,
     /// Leave the environment out of the picture and say by alpha what is covered.
     pub transparent: bool,

@@ -75,9 +75,10 @@ pub struct Quality {
     /// Russian roulette may end paths from this scattering on
     #[arg(long, default_value_t = 16)]
     pub roulette_start: u32,
-    /// Passes, by name and comma: R, TT, TRT, residual, surface, background; or `all`, `none`
-    #[arg(long, default_value = "R,TT,TRT,residual,surface", value_parser = parse_aovs)]
-    pub aovs: AovSet,
+    /// Passes, by name and comma: R, TT, TRT, residual, scattered, surface, background; or `all`, `none`
+    /// [default: R, TT, TRT, residual, surface, and scattered where there is fur]
+    #[arg(long, value_parser = parse_aovs)]
+    pub aovs: Option<AovSet>,
     /// Store 16-bit floats instead of 32
     #[arg(long)]
     pub half: bool,
@@ -141,6 +142,10 @@ pub struct Fibre {
     /// Colour r,g,b instead of the groom's own, linear Rec. 709
     #[arg(long, value_name = "RGB", value_parser = parse_rgb)]
     pub color: Option<Vec3>,
+    /// Change the absorption until this groom, lit evenly, has the colour of `--color` as its mean: takes
+    /// some small renders first, and tells how far off Chiang's fit was
+    #[arg(long, requires = "color")]
+    pub match_color: bool,
     /// Melanin concentration and redness, 0..1 each
     #[arg(long, value_name = "C,R", conflicts_with = "color")]
     pub melanin: Option<Numbers<2>>,
@@ -163,6 +168,10 @@ pub struct Fibre {
     /// transmit light by refraction)
     #[arg(long)]
     pub use_transparency: bool,
+    /// For looking into the model: one offset across the fibre for all hits, -1..1, instead of where each
+    /// ray meets it (the "shift" of older shaders)
+    #[arg(long, value_name = "H", allow_hyphen_values = true)]
+    pub fixed_offset: Option<f32>,
 }
 
 #[derive(Debug, clap::Args)]
@@ -232,8 +241,10 @@ fn parse_aovs(words: &str) -> Result<AovSet, String> {
         _ => words
             .split(',')
             .map(|name| {
-                let known =
-                    || format!("unknown pass `{name}`: expected R, TT, TRT, residual, surface, background");
+                let known = || {
+                    let names: Vec<&str> = Aov::ALL.into_iter().map(Aov::name).collect();
+                    format!("unknown pass `{name}`: expected {}", names.join(", "))
+                };
                 Aov::from_name(name.trim()).ok_or_else(known)
             })
             .collect(),
@@ -258,5 +269,6 @@ mod tests {
         assert!(parse_rgb("1,2").is_err() && parse_rgb("nan").is_err() && parse_rgb("").is_err());
         assert_eq!(parse_aovs("tt,R").unwrap().iter().count(), 2);
         assert!(parse_aovs("glint").unwrap_err().contains("glint"));
+        assert!(parse_aovs("scattered").unwrap().contains(Aov::Scattered));
     }
 }

@@ -7,8 +7,9 @@ use anyhow::{Context, Result};
 use command_line::{Bar, Outcome};
 use glam::{DVec3, Vec3};
 use hair_render::{
-    Backdrop, Background, Camera, Frame, Metadata, Precision, Progress, RenderError, RenderSettings, Scene,
-    ToneMapping, check_output, tone_map,
+    Aov, AovSet, Backdrop, Background, Camera, ColorMatch, ColorMatching, Frame, FrameReport, Metadata,
+    Precision, Progress, Reach, RenderError, RenderSettings, Scene, SceneDescription, ToneMapping,
+    check_output, tone_map,
 };
 
 use crate::args::Args;
@@ -38,7 +39,7 @@ pub fn write_studio(path: &Path) -> Result<Outcome> {
 /// Renders what the arguments ask for.
 pub fn render(args: &Args) -> Result<Outcome> {
     let output = args.output.as_deref().context("no output given")?;
-    let settings = settings(args);
+    let mut settings = settings(args);
     settings.check()?;
     check_output(output, "exr")?;
     args.png.as_deref().map_or(Ok(()), |png| check_output(png, "png"))?;
@@ -46,22 +47,75 @@ pub fn render(args: &Args) -> Result<Outcome> {
     words.iter().for_each(|word| say(&format!("warning: {word}")));
     let target = args.view.look_at.map_or_else(|| middle(&description), |at| at.vector());
     description.lights = scene::lights(&args.light, target)?;
+    settings.aovs = args.quality.aovs.unwrap_or_else(|| usual_passes(&description));
     if args.explain {
         for left in hair_render::explain(&description, &settings) {
             say(&format!("left out: {}: {}", left.what, left.why));
         }
     }
-    let scene = Scene::build(description)?;
+    let mut scene = Scene::build(description)?;
     let camera = scene::camera(&args.view, &scene)?;
+    command_line::on_interrupt_ask();
+    let color_match = match args.fibre.color.filter(|_| args.fibre.match_color) {
+        Some(color) => match match_color(color, &mut scene, &camera, &settings)? {
+            Some(found) => Some(found),
+            None => return Ok(Outcome::Interrupted),
+        },
+        None => None,
+    };
     let Some(frame) = trace(&scene, &camera, &settings)? else { return Ok(Outcome::Interrupted) };
     write(args, output, camera, &frame)?;
-    report(args, &frame, output)?;
+    report(args, &frame, color_match, output)?;
     Ok(Outcome::Good)
+}
+
+/// Gives the hair the absorption that makes it `color`, and says how that went; `None` when Ctrl-C
+/// stopped it.
+fn match_color(
+    color: Vec3,
+    scene: &mut Scene,
+    camera: &Camera,
+    settings: &RenderSettings,
+) -> Result<Option<ColorMatch>> {
+    let bar = OnBar(command_line::progress_bar(1, "matching the colour"));
+    let matching = ColorMatching { color, ..ColorMatching::default() };
+    let result = hair_render::match_color(scene, camera, settings, &matching, &bar);
+    bar.0.finish();
+    let found = match result {
+        Err(RenderError::Cancelled) => return Ok(None),
+        found => found?,
+    };
+    let [r, g, b] = found.absorption;
+    say(&format!(
+        "colour matched by absorption {r:.4},{g:.4},{b:.4}: {:.4} off (Chiang's fit: {:.4}), {} probes, {:.2} s",
+        found.error, found.fit_error, found.probes, found.seconds
+    ));
+    for (channel, reach) in ["red", "green", "blue"].into_iter().zip(found.reach) {
+        if let Some(why) = not_reached(reach) {
+            say(&format!("warning: {channel} is not reached: {why}"));
+        }
+    }
+    Ok(Some(found))
+}
+
+fn not_reached(reach: Reach) -> Option<&'static str> {
+    match reach {
+        Reach::Reached => None,
+        Reach::TooBright => Some("hair that absorbs nothing is still darker"),
+        Reach::TooDark => Some("what the surfaces of black fibres reflect is still lighter"),
+        Reach::NotYet => Some("the probes were used up"),
+    }
+}
+
+/// The passes of a picture when nobody named any: those that hold light.
+fn usual_passes(description: &SceneDescription) -> AovSet {
+    let fur = description.hair.iter().any(|hair| hair.material.fibre.medulla.scatters());
+    let scattered = fur.then_some(Aov::Scattered);
+    [Aov::R, Aov::Tt, Aov::Trt, Aov::Residual, Aov::Surface].into_iter().chain(scattered).collect()
 }
 
 /// The frame; `None` when Ctrl-C stopped it.
 fn trace(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Option<Frame>> {
-    command_line::on_interrupt_ask();
     let bar = OnBar(command_line::progress_bar(1, "rendering"));
     let result = hair_render::render(scene, camera, settings, &bar);
     bar.0.finish();
@@ -97,18 +151,26 @@ fn settings(args: &Args) -> RenderSettings {
         max_bounces: quality.max_bounces,
         roulette_start: quality.roulette_start,
         threads: quality.threads,
-        aovs: quality.aovs,
         background: if args.light.background { Background::Visible } else { Background::Transparent },
         ..RenderSettings::default()
     }
 }
 
 /// Where lights look when nobody said: the middle of the scene.
-fn middle(description: &hair_render::SceneDescription) -> DVec3 {
+fn middle(description: &SceneDescription) -> DVec3 {
     description.bounds().map_or(DVec3::ZERO, |bounds| bounds.center())
 }
 
-fn report(args: &Args, frame: &Frame, output: &Path) -> Result<()> {
+/// What `--json` prints.
+#[derive(serde::Serialize)]
+struct Report<'a> {
+    #[serde(flatten)]
+    frame: &'a FrameReport,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    color_match: Option<ColorMatch>,
+}
+
+fn report(args: &Args, frame: &Frame, color_match: Option<ColorMatch>, output: &Path) -> Result<()> {
     let report = &frame.report;
     let error = match report.relative_error {
         Some(error) => format!("estimated relative error {:.2} %", 100.0 * error),
@@ -119,7 +181,7 @@ fn report(args: &Args, frame: &Frame, output: &Path) -> Result<()> {
         say(&format!("warning: {} samples were not finite and count as black", report.rejected_samples));
     }
     if args.json {
-        let mut json = serde_json::to_string_pretty(report)?;
+        let mut json = serde_json::to_string_pretty(&Report { frame: report, color_match })?;
         json.push('\n');
         std::io::stdout().lock().write_all(json.as_bytes())?;
     }

@@ -89,7 +89,11 @@ fn material(fibre: &Fibre) -> HairMaterial {
         ..HairParameters::default()
     };
     let transparency = if fibre.use_transparency { Transparency::Stochastic } else { Transparency::Ignored };
-    HairMaterial { fibre: Material { parameters, color, ..Material::default() }, transparency }
+    HairMaterial {
+        fibre: Material { parameters, color, ..Material::default() },
+        transparency,
+        fixed_offset: fibre.fixed_offset,
+    }
 }
 
 fn environment(light: &Light) -> Result<Environment> {

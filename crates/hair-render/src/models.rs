@@ -1,0 +1,107 @@
+//! The scattering models of one groom: one for all strands, or one for each roughness that occurs.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use fibre_material::{Dressed, Field};
+use fibre_scattering::{
+    FarFieldBcsdf, FibreBcsdf, FurBcsdf, FurParameters, HairBcsdf, HairParameters, MedullaKey, MedullaTable,
+    ScatteringError,
+};
+
+use crate::RenderError;
+
+/// Prepared models, and which one each strand has.
+#[derive(Debug)]
+pub(crate) struct Models {
+    prepared: Vec<FibreBcsdf>,
+    /// Index into `prepared` by strand; empty where one model serves all.
+    by_strand: Vec<u32>,
+}
+
+impl Models {
+    /// Prepares every model that `dressed` asks for; strands of the same roughness share theirs.
+    pub fn new(object: usize, dressed: &Dressed) -> Result<Models, RenderError> {
+        let refused = |source: ScatteringError| RenderError::Scattering { object, source };
+        let maker = Maker::new(object, &dressed.parameters, dressed.field)?;
+        let Some(roughness) = &dressed.roughness else {
+            let only = maker.make(dressed.parameters.hair).map_err(refused)?;
+            return Ok(Models { prepared: vec![only], by_strand: Vec::new() });
+        };
+        let mut prepared = Vec::new();
+        let mut known = HashMap::new();
+        let mut by_strand = Vec::with_capacity(roughness.len());
+        for &[beta_m, beta_n] in roughness {
+            let index = match known.get(&[beta_m.to_bits(), beta_n.to_bits()]) {
+                Some(&index) => index,
+                None => {
+                    let hair = HairParameters { beta_m, beta_n, ..dressed.parameters.hair };
+                    prepared.push(maker.make(hair).map_err(refused)?);
+                    let index = prepared.len() as u32 - 1;
+                    known.insert([beta_m.to_bits(), beta_n.to_bits()], index);
+                    index
+                }
+            };
+            by_strand.push(index);
+        }
+        if prepared.len() <= 1 {
+            by_strand = Vec::new();
+        }
+        if prepared.is_empty() {
+            // A groom without strands.
+            prepared.push(maker.make(dressed.parameters.hair).map_err(refused)?);
+        }
+        Ok(Models { prepared, by_strand })
+    }
+
+    /// The model of a strand.
+    #[inline]
+    pub fn of(&self, strand: u32) -> &FibreBcsdf {
+        match self.by_strand.get(strand as usize) {
+            Some(&index) => &self.prepared[index as usize],
+            None => &self.prepared[0],
+        }
+    }
+}
+
+/// What all models of a groom share: the kind, and the table of the medulla.
+struct Maker<'a> {
+    parameters: &'a FurParameters,
+    kind: Kind,
+}
+
+enum Kind {
+    Hair,
+    Far { nodes: u32 },
+    Fur(Option<Arc<MedullaTable>>),
+}
+
+impl<'a> Maker<'a> {
+    fn new(object: usize, parameters: &'a FurParameters, field: Field) -> Result<Self, RenderError> {
+        let fur = parameters.medulla.kappa > 0.0;
+        let kind = match field {
+            Field::Far { nodes } if fur => {
+                let found = format!("{nodes} offsets for fur (kappa {})", parameters.medulla.kappa);
+                return Err(RenderError::argument("far field", found, "near field: fur has no far field"));
+            }
+            Field::Far { nodes } => Kind::Far { nodes },
+            Field::Near if fur => {
+                let table = MedullaKey::needed(parameters).map(|key| medulla_tables::table(&key)).transpose();
+                Kind::Fur(table.map_err(|source| RenderError::Table { object, source })?)
+            }
+            Field::Near => Kind::Hair,
+        };
+        Ok(Maker { parameters, kind })
+    }
+
+    fn make(&self, hair: HairParameters) -> Result<FibreBcsdf, ScatteringError> {
+        Ok(match &self.kind {
+            Kind::Hair => FibreBcsdf::Hair(HairBcsdf::new(&hair)?),
+            Kind::Far { nodes } => FibreBcsdf::FarField(FarFieldBcsdf::new(&hair, *nodes)?),
+            Kind::Fur(table) => {
+                let parameters = FurParameters { hair, ..*self.parameters };
+                FibreBcsdf::Fur(FurBcsdf::new(&parameters, table.clone())?)
+            }
+        })
+    }
+}
