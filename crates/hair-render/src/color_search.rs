@@ -37,6 +37,8 @@ pub(crate) struct Channel {
     /// The same of one that is too dark.
     dark: Option<(f64, f64)>,
     last: (f64, f64),
+    /// How many probes there were before both sides were known.
+    one_sided: u32,
     width: f64,
     bisect: bool,
     reach: Reach,
@@ -49,6 +51,7 @@ impl Channel {
             light: None,
             dark: None,
             last: (0.0, 1.0),
+            one_sided: 0,
             width: f64::INFINITY,
             bisect: false,
             reach: Reach::NotYet,
@@ -76,6 +79,9 @@ impl Channel {
             self.dark = Some((x, color));
             self.light = self.light.filter(|&(light, _)| light < x);
         }
+        if self.light.is_none() || self.dark.is_none() {
+            self.one_sided += 1;
+        }
         let width = match (self.light, self.dark) {
             (Some((light, _)), Some((dark, _))) => dark - light,
             _ => f64::INFINITY,
@@ -100,6 +106,7 @@ impl Channel {
             return x * x;
         }
         let log = |color: f64| color.max(1e-4).ln();
+        let along = |color: f64| log(self.wanted) / log(color).min(-1e-6);
         let guess = match (self.light, self.dark) {
             (Some((light, _)), Some((dark, _))) if self.bisect => 0.5 * (light + dark),
             (Some((light, above)), Some((dark, below))) => {
@@ -112,17 +119,15 @@ impl Channel {
                     0.5 * (light + dark)
                 }
             }
-            // Only one side is known: along the line from white hair, at most a factor 2 beyond.
+            // Only one side is known: along the line from white hair, at first carefully.
             (None, _) => {
-                let guess = x * (log(self.wanted) / log(color).min(-1e-6)).clamp(0.0, 0.9);
-                if guess * guess < LEAST { 0.0 } else { guess.min(0.9 * x) }
+                let most = if self.one_sided > 1 { 0.5 } else { 0.95 };
+                let guess = x * along(color).clamp(0.0, most);
+                if guess * guess < LEAST { 0.0 } else { guess }
             }
             (Some(_), None) => {
-                let guess = if x > 0.0 {
-                    x * (log(self.wanted) / log(color).min(-1e-6)).clamp(1.1, 4.0)
-                } else {
-                    0.03
-                };
+                let least = if self.one_sided > 1 { 2.0 } else { 1.05 };
+                let guess = if x > 0.0 { x * along(color).clamp(least, 4.0) } else { 0.03 };
                 guess.min(MOST.sqrt())
             }
         };

@@ -42,9 +42,13 @@ impl<'a> FibreHit<'a> {
             let wo = Vec3::new(along, toward.dot(facing), 0.0).normalize();
             return FibreHit { scatter: material.at(wo, h, absorption), axes };
         };
-        let across = (major_axis - tangent * major_axis.dot(tangent))
-            .try_normalize()
-            .unwrap_or_else(|| tangent.any_orthonormal_vector());
+        let across = major_axis - tangent * major_axis.dot(tangent);
+        // What is left of an axis along the fibre is rounding.
+        let across = if across.length_squared() > 1e-6 {
+            across.normalize()
+        } else {
+            tangent.any_orthonormal_vector()
+        };
         let axes = [tangent, across, tangent.cross(across)];
         let wo = Vec3::from_array(axes.map(|axis| axis.dot(toward))).normalize();
         FibreHit { scatter: material.at(wo, h, absorption), axes }

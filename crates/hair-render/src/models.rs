@@ -105,3 +105,49 @@ impl<'a> Maker<'a> {
         })
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use fibre_material::Varying;
+    use fibre_scattering::Absorption;
+    use glam::Vec3;
+
+    use super::*;
+
+    fn dressed(roughness: Option<Vec<[f32; 2]>>) -> Dressed {
+        Dressed {
+            parameters: FurParameters::default(),
+            absorption: Varying::Constant(Absorption::default()),
+            roughness,
+            field: Field::Near,
+        }
+    }
+
+    #[test]
+    fn every_strand_has_its_own_roughness_and_shares_it() {
+        let roughness = vec![[0.1, 0.2], [0.3, 0.3], [0.1, 0.2], [0.1, 0.3]];
+        let models = Models::new(0, &dressed(Some(roughness.clone()))).unwrap();
+        assert_eq!(models.prepared.len(), 3);
+        let (wo, wi) = (Vec3::new(0.28, 0.96, 0.0), Vec3::new(-0.48, 0.64, 0.6));
+        for (strand, [beta_m, beta_n]) in roughness.into_iter().enumerate() {
+            let own = HairBcsdf::new(&HairParameters { beta_m, beta_n, ..Default::default() }).unwrap();
+            let found = models.of(strand as u32).at(wo, 0.3, Absorption::default());
+            assert_eq!(found.evaluate_with_pdf(wi), own.at(wo, 0.3).evaluate_with_pdf(wi), "{strand}");
+        }
+    }
+
+    #[test]
+    fn one_roughness_needs_one_model_and_bad_ones_are_refused() {
+        let same = Models::new(0, &dressed(Some(vec![[0.2, 0.4]; 9]))).unwrap();
+        assert!(same.prepared.len() == 1 && same.by_strand.is_empty());
+        let Err(refused) = Models::new(3, &dressed(Some(vec![[0.2, 0.4], [0.2, f32::NAN]]))) else {
+            panic!("taken");
+        };
+        assert!(matches!(refused, RenderError::Scattering { object: 3, .. }));
+        assert_eq!(Models::new(0, &dressed(Some(vec![]))).unwrap().prepared.len(), 1);
+        let mut fur = dressed(None);
+        fur.field = Field::Far { nodes: 8 };
+        fur.parameters.medulla.kappa = 0.5;
+        assert!(Models::new(0, &fur).unwrap_err().to_string().contains("far field"));
+    }
+}

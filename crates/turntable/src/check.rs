@@ -189,7 +189,7 @@ impl Check<'_> {
         if let Some(sheet) = &pipeline.sheet {
             self.need(sheet.columns != Some(0), "sheet.columns", 0, "at least 1");
             self.need(sheet.gap <= 1024, "sheet.gap", sheet.gap, "at most 1024 pixels");
-            let (width, height) = sheet::size_of(sheet, pipeline.turntable.frames, &pipeline.render);
+            let (width, height) = sheet::layout(sheet, &pipeline.render).size(pipeline.turntable.frames);
             self.pixels("sheet", width, height);
         }
     }

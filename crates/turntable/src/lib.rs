@@ -26,7 +26,6 @@
 
 mod check;
 mod digest;
-mod digits;
 mod error;
 mod explain;
 mod frame_file;

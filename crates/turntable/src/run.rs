@@ -5,14 +5,13 @@ use std::time::Instant;
 
 use groom::Groom;
 use groom_formats::WriteOptions;
-use hair_render::{FrameReport, Metadata, Progress};
+use hair_render::{ContactSheet, FrameReport, Metadata, Progress};
 use serde::Serialize;
 
 use crate::frame_file::{self, FrameHeader};
 use crate::manifest::Manifest;
 use crate::scene::{self, Stage};
-use crate::sheet::ContactSheet;
-use crate::{Event, Plan, Reporter, State, Step, StepKind, TurntableError, prepare, report};
+use crate::{Event, Plan, Reporter, State, Step, StepKind, TurntableError, prepare, report, sheet};
 
 /// What a run made and how exact its frames are.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -274,7 +273,11 @@ impl<'a> Run<'a> {
         let pipeline = &self.plan.pipeline;
         let mapping = scene::tone_mapping(&pipeline.tone);
         let background = background_bytes(&mapping);
-        let mut sheet = ContactSheet::new(settings, pipeline.turntable.frames, &pipeline.render, background);
+        // The pipeline's check keeps sheets far below what cannot be.
+        let layout = sheet::layout(settings, &pipeline.render);
+        let Some(mut sheet) = ContactSheet::new(layout, pipeline.turntable.frames, background) else {
+            return Ok(());
+        };
         for frame in self.plan.frames() {
             let StepKind::Frame { number, .. } = frame.kind else { continue };
             let picture = frame_file::read_beauty(&self.path(frame))?;
