@@ -142,7 +142,9 @@ fn search(
         probe.look(scene, progress)
     };
     let wanted = matching.color;
-    let fit = absorption_from_color(wanted, beta_n);
+    // The fit ends at white; that a colour beyond it cannot be had is what the search will tell.
+    let refused = |source| RenderError::Scattering { object: matching.object, source };
+    let fit = absorption_from_color(wanted.min(Vec3::ONE), beta_n).map_err(refused)?;
     let mut sigma = fit;
     let mut channels = wanted.to_array().map(|wanted| Channel::new(f64::from(wanted)));
     let mut first: Option<Seen> = None;

@@ -114,7 +114,7 @@ fn major_axes(groom: &Groom) -> Vec<Vec3> {
         };
         let chord = groom.up_axis.rotate(chord, UpAxis::Y);
         let (across, other) = chord.any_orthonormal_pair();
-        let angle = std::f32::consts::TAU * groom::random(0, strand as u32, "cross-section");
+        let angle = std::f32::consts::TAU * groom::random(0, groom.strand_id(strand), "cross-section");
         across * angle.cos() + other * angle.sin()
     };
     (0..groom.strand_count()).map(axis).collect()

@@ -93,3 +93,19 @@ fn ctrl_c_leaves_nothing_behind() {
     assert_eq!(child.wait().unwrap().code(), Some(130));
     assert!(names(&folder).is_empty());
 }
+
+#[test]
+fn a_matched_colour_is_reported_with_both_errors() {
+    let folder = folder("matched");
+    let small =
+        ["--width", "8", "--height", "8", "--spp", "2", "--max-bounces", "4", "-o", "a.exr", "--json"];
+    let done = run(&folder, &[&small[..], &["--color", "0.4,0.2,0.1", "--match-color"]].concat());
+    let words = String::from_utf8_lossy(&done.stderr);
+    assert_eq!(done.status.code(), Some(0), "{words}");
+    let report: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    let found = &report["color_match"];
+    assert!(found["error"].as_f64().unwrap() < found["fit_error"].as_f64().unwrap(), "{found}");
+    assert!(words.contains("Chiang's fit") && report["spp"] == 2, "{words}");
+    let without = run(&folder, &[&small[..], &["--match-color"]].concat());
+    assert!(without.status.code() == Some(2), "a colour to match must be given");
+}
