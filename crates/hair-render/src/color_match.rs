@@ -110,8 +110,9 @@ pub fn match_color(
     matching.check(scene)?;
     let pool = settings.pool()?;
     let white = Lights::new(Some(Environment::constant(Vec3::ONE)?), &[], scene.center());
+    let refused = |source| RenderError::Scattering { object: matching.object, source };
+    let before = scene.fibres[matching.object].set_cortex(Vec3::ZERO).map_err(refused)?;
     let lights = std::mem::replace(&mut scene.lights, white);
-    let before = scene.fibres[matching.object].set_cortex(Vec3::ZERO);
     let found = pool.install(|| search(scene, camera, settings, matching, progress));
     scene.lights = lights;
     if found.is_err() {
@@ -137,13 +138,13 @@ fn search(
         settings,
     };
     let beta_n = scene.fibres[matching.object].beta_n();
+    let refused = |source| RenderError::Scattering { object: matching.object, source };
     let mut look = |sigma: Vec3| {
-        scene.fibres[matching.object].set_cortex(sigma);
+        scene.fibres[matching.object].set_cortex(sigma).map_err(refused)?;
         probe.look(scene, progress)
     };
     let wanted = matching.color;
     // The fit ends at white; that a colour beyond it cannot be had is what the search will tell.
-    let refused = |source| RenderError::Scattering { object: matching.object, source };
     let fit = absorption_from_color(wanted.min(Vec3::ONE), beta_n).map_err(refused)?;
     let mut sigma = fit;
     let mut channels = wanted.to_array().map(|wanted| Channel::new(f64::from(wanted)));

@@ -77,7 +77,7 @@ mod tests {
     fn turning_the_frame_of_a_round_fibre_changes_nothing() {
         let parameters = HairParameters { sigma_a: Vec3::new(0.1, 0.3, 0.7), ..HairParameters::default() };
         let material = FibreBcsdf::Hair(HairBcsdf::new(&parameters).unwrap());
-        let absorption = Absorption { cortex: parameters.sigma_a, medulla: Vec3::ZERO };
+        let absorption = Absorption::new(parameters.sigma_a, Vec3::ZERO).unwrap();
         let tangent = Vec3::new(0.3, 0.9, -0.2).normalize();
         let toward = Vec3::new(-0.5, 0.1, 0.8).normalize();
         let at = |major_axis| {

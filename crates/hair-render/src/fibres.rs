@@ -1,7 +1,7 @@
 //! The strands of one groom as the render loop needs them: where a hit is, what it scatters like.
 
 use fibre_material::Varying;
-use fibre_scattering::{Absorption, HairParameters};
+use fibre_scattering::{Absorption, HairParameters, ScatteringError};
 use glam::{DVec3, Vec3};
 use groom::{Attribute, Groom, UpAxis, Values, names};
 use strand_tracing::{Hit, HitKind, Primitive};
@@ -67,15 +67,15 @@ impl Fibres {
 
     /// Gives all strands one absorption of the cortex, and returns what they had. The medulla's stays where
     /// it is the same for all, and becomes its mean where it is not.
-    pub fn set_cortex(&mut self, cortex: Vec3) -> Varying<Absorption> {
+    pub fn set_cortex(&mut self, cortex: Vec3) -> Result<Varying<Absorption>, ScatteringError> {
         let medulla = match &self.absorption {
-            Varying::Constant(absorption) => absorption.medulla,
+            Varying::Constant(absorption) => absorption.medulla(),
             Varying::Strand(all) | Varying::Vertex(all) => {
-                let sum: DVec3 = all.iter().map(|a| a.medulla.as_dvec3()).sum();
+                let sum: DVec3 = all.iter().map(|a| a.medulla().as_dvec3()).sum();
                 (sum / all.len().max(1) as f64).as_vec3()
             }
         };
-        self.set_absorption(Varying::Constant(Absorption { cortex, medulla }))
+        Ok(self.set_absorption(Varying::Constant(Absorption::new(cortex, medulla)?)))
     }
 
     /// Puts another absorption in place, and returns the one before.
