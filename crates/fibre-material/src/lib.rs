@@ -1,11 +1,50 @@
 //! Materials of hair and fur as people describe them, and what they come to on a groom.
+//!
+//! A [`Material`] comes from a YAML file ([`Material::open`]; [`MaterialFile`] lists the keys), a preset
+//! ([`Material::preset`]) or code. [`Material::dress`] puts it on a groom: what differs from strand to strand
+//! or along a strand is worked out there, once, and what does not is held once.
+//!
+//! ```
+//! use fibre_material::Material;
+//!
+//! let text = "preset: human-brown\nvariation: {white: 0.15, pigment: 0.3}\nbeta_m: 0.25\n";
+//! let greying = Material::from_yaml(text, "greying.yaml")?;
+//! assert_eq!(greying.variation.white.share, 0.15);
+//!
+//! let fault = Material::from_yaml("beta_m: 0.3\nmelanine: 0.4\n", "a.yaml").unwrap_err();
+//! assert_eq!(fault.to_string(), "a.yaml:2:1: unknown key `melanine`, did you mean `melanin`?");
+//! let fault = Material::from_yaml("eta: 1.55\nbeta_m: 7\n", "a.yaml").unwrap_err();
+//! assert_eq!(fault.to_string(), "a.yaml:2:9: beta_m: must lie in [0.001, 1], found 7");
+//! # Ok::<(), fibre_material::MaterialError>(())
+//! ```
 
+mod build;
 mod color;
+mod dressed;
 mod error;
+mod file;
+mod fur_controls;
+mod hue;
 mod material;
+mod open;
+mod overlay;
+mod painter;
+mod picture;
+mod preset;
+mod variation;
 mod varying;
 
-pub use color::HairColor;
+pub use build::KeyFault;
+pub use color::{ColorRamp, ColorTexture, HairColor};
+pub use dressed::Dressed;
 pub use error::MaterialError;
-pub use material::{Dressed, Field, Material};
+pub use file::{
+    AlongFile, FieldName, FilmFile, FurFile, GroomColor, LobesFile, MaterialFile, MedullaFile, ScalesFile,
+    TextureFile, VDirection, VariationFile,
+};
+pub use fur_controls::FurControls;
+pub use material::{Field, Material};
+pub use picture::Picture;
+pub use preset::Preset;
+pub use variation::{Along, Variation, White, WhiteColor};
 pub use varying::Varying;

@@ -4,11 +4,10 @@ use std::path::Path;
 
 use groom_formats::Format;
 use hair_render::Aov;
+use strict_yaml::{Fault, locate, nearest};
 
-use crate::error::Fault;
-use crate::nearest::nearest;
 use crate::schema::{Attributes, EnvironmentSource, Pipeline};
-use crate::{sheet, yaml};
+use crate::sheet;
 
 /// A picture of more pixels than this is taken for a slip: it would need gigabytes.
 const MOST_PIXELS: u64 = 1 << 28;
@@ -31,7 +30,7 @@ pub(crate) fn faults(pipeline: &Pipeline, file: &Path, text: &str) -> Vec<Fault>
     check.views(pipeline);
     let in_text = |(key, message): (String, String)| {
         let path: Vec<&str> = key.split('.').collect();
-        let place = yaml::locate(text, &path).map(|p| (p.line, p.column));
+        let place = locate(text, &path).map(|p| (p.line, p.column));
         Fault { file: file.to_owned(), place, key, message }
     };
     check.found.into_iter().map(in_text).collect()
@@ -304,7 +303,7 @@ mod tests {
     use super::*;
 
     fn found(text: &str) -> Vec<String> {
-        let pipeline = yaml::parse(text).unwrap();
+        let pipeline = crate::yaml::parse(text).unwrap();
         faults(&pipeline, Path::new("turn.yaml"), text).iter().map(ToString::to_string).collect()
     }
 

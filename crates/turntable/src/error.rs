@@ -1,35 +1,10 @@
 //! What can keep a turntable from being made.
 
-use std::fmt;
 use std::path::PathBuf;
 
+use strict_yaml::Fault;
+
 use crate::FrameRangeError;
-
-/// One thing wrong with a pipeline file.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Fault {
-    /// The pipeline file.
-    pub file: PathBuf,
-    /// Line and column, from 1; `None` for what stands on the command line or nowhere.
-    pub place: Option<(usize, usize)>,
-    /// The key, as `render.spp`; empty where the message names it.
-    pub key: String,
-    /// What is wrong and what would be right.
-    pub message: String,
-}
-
-impl fmt::Display for Fault {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{}:", self.file.display())?;
-        if let Some((line, column)) = self.place {
-            write!(f, "{line}:{column}:")?;
-        }
-        if !self.key.is_empty() {
-            write!(f, " {}:", self.key)?;
-        }
-        write!(f, " {}", self.message)
-    }
-}
 
 /// A turntable that could not be planned or made. What was finished before stays finished.
 #[derive(Debug, thiserror::Error)]

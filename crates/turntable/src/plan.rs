@@ -4,10 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::digest::{Digest, Ingredients};
-use crate::error::Fault;
 use crate::manifest::Manifest;
 use crate::schema::Pipeline;
-use crate::{FrameRange, TurntableError, check, frame_file, yaml};
+use crate::{Fault, FrameRange, TurntableError, check, frame_file, yaml};
 
 /// What the caller asks for beside the file.
 #[derive(Clone, Debug, Default)]

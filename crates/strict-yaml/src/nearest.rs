@@ -1,7 +1,13 @@
 //! "Did you mean": the known name nearest to a mistyped one.
 
 /// The member of `known` with the fewest edits to `name`, if those are few enough to be a slip.
-pub(crate) fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
+///
+/// ```
+/// assert_eq!(strict_yaml::nearest("widht", ["width", "height"]), Some("width"));
+/// assert_eq!(strict_yaml::nearest("colour", ["width", "height"]), None);
+/// ```
+#[must_use]
+pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
     let slip = (name.chars().count() / 3).max(2);
     known
         .into_iter()

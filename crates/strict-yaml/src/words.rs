@@ -1,4 +1,4 @@
-//! The YAML library's messages in the words of somebody who writes pipelines.
+//! The YAML library's messages in the words of somebody who writes the file.
 
 use crate::nearest::nearest;
 

@@ -1,0 +1,222 @@
+//! What a material file may say: every key, its type and its unit.
+//!
+//! Plain data; what it comes to, and its ranges, are `build.rs`'s work.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+/// A material in words: what a material file holds, or the `material` of a pipeline. Every key may be left
+/// out; unknown ones are refused.
+///
+/// The colour is said in one way: `color`, `absorption`, `melanin` (with `redness`), `eumelanin` and
+/// `pheomelanin`, `groom`, `texture` or `color_ramp`. Without any, the groom's own colour counts.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MaterialFile {
+    /// Begin with this preset; the other keys change it.
+    pub preset: Option<String>,
+    /// Begin with this material file, relative to the one that names it; the other keys change it.
+    pub file: Option<PathBuf>,
+
+    /// Colour of many strands seen together, linear Rec. 709, 0..1.
+    pub color: Option<[f32; 3]>,
+    /// Absorption per fibre radius, at least 0.
+    pub absorption: Option<[f32; 3]>,
+    /// Pigment, perceptually even: 0 white, 0.1 to 0.3 blond, 1 black.
+    pub melanin: Option<f32>,
+    /// Share of red pigment, 0..1; needs `melanin`.
+    pub redness: Option<f32>,
+    /// Concentration of the brown to black pigment: about 0.3 blond, 1.3 brown, 8 black.
+    pub eumelanin: Option<f32>,
+    /// Concentration of the yellow to red pigment.
+    pub pheomelanin: Option<f32>,
+    /// The groom's own attributes.
+    pub groom: Option<GroomColor>,
+    /// A picture at the strands' `root_uv`.
+    pub texture: Option<TextureFile>,
+    /// Colours from root to tip: how far along (0 to 1) and the colour there.
+    pub color_ramp: Option<Vec<(f32, [f32; 3])>>,
+
+    /// Roughness along the fibre, above 0, at most 1.
+    pub beta_m: Option<f32>,
+    /// Roughness around the fibre, above 0, at most 1.
+    pub beta_n: Option<f32>,
+    /// How much rougher TT and TRT are than R along the fibre.
+    pub roughness_scales: Option<ScalesFile>,
+    /// Tilt of the cuticle's scales in degrees, above 0 for real hair.
+    pub alpha: Option<f32>,
+    /// Index of refraction.
+    pub eta: Option<f32>,
+    /// Factors on the lobes; 1 is physical.
+    pub lobes: Option<LobesFile>,
+    /// Whether a film of water is over the fibre.
+    pub wet: Option<bool>,
+    /// What the film is like; stating it makes the fibre wet.
+    pub film: Option<FilmFile>,
+    /// Layers of cuticle scales as Yan et al. 2017 count them.
+    pub cuticle_layers: Option<f32>,
+    /// Smaller over larger axis of the cross-section; 1 is round.
+    pub aspect: Option<f32>,
+
+    /// The core of fur by its physical parameters.
+    pub medulla: Option<MedullaFile>,
+    /// The core of fur by the friendly controls.
+    pub fur: Option<FurFile>,
+
+    /// How strands differ.
+    pub variation: Option<VariationFile>,
+    /// What changes from root to tip.
+    pub along: Option<AlongFile>,
+
+    /// `near`, every hit with its own offset across the fibre, or `far`, offsets integrated out.
+    pub field: Option<FieldName>,
+    /// Offsets in the far field's quadrature, 1..=64; needs `field: far`.
+    pub nodes: Option<u32>,
+}
+
+/// Colour from the groom's attributes: `color`, or `melanin` and `redness` where `melanin` is said here.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GroomColor {
+    /// What a groom without `color` gets.
+    pub color: Option<[f32; 3]>,
+    /// What a groom without `melanin` gets.
+    pub melanin: Option<f32>,
+    /// What a groom without `redness` gets.
+    pub redness: Option<f32>,
+}
+
+/// A picture at the strands' `root_uv`.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct TextureFile {
+    /// A `.png` (sRGB) or `.hdr` (linear), relative to the material file.
+    pub file: PathBuf,
+    /// Which way v runs.
+    pub v: VDirection,
+}
+
+/// Where v = 0 is in a picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum VDirection {
+    /// At the bottom: USD, Blender, Houdini.
+    #[default]
+    Up,
+    /// At the top: glTF.
+    Down,
+}
+
+/// Factors on the roughness along the fibre.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct ScalesFile {
+    /// Of TT; 0.5 when absent.
+    pub tt: Option<f32>,
+    /// Of TRT and the residual; 2 when absent.
+    pub trt: Option<f32>,
+}
+
+/// Factors on the lobes, 1 when absent.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LobesFile {
+    /// Reflected at the surface.
+    #[serde(rename = "R")]
+    pub r: Option<f32>,
+    /// Transmitted twice.
+    #[serde(rename = "TT")]
+    pub tt: Option<f32>,
+    /// Reflected once inside.
+    #[serde(rename = "TRT")]
+    pub trt: Option<f32>,
+    /// Reflected twice or more inside.
+    pub residual: Option<f32>,
+    /// Scattered by the medulla.
+    pub scattered: Option<f32>,
+}
+
+/// A film of water.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FilmFile {
+    /// Index of refraction; 1.33 when absent.
+    pub eta: Option<f32>,
+    /// Roughness of its surface; 0.1 when absent.
+    pub roughness: Option<f32>,
+}
+
+/// The core of fur: Yan et al. 2017. What is absent is 0.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct MedullaFile {
+    /// Radius of the medulla over that of the fibre, 0..0.99.
+    pub kappa: Option<f32>,
+    /// Scattering per fibre radius, 0..100.
+    pub sigma_s: Option<f32>,
+    /// Absorption per fibre radius, at least 0.
+    pub sigma_a: Option<[f32; 3]>,
+    /// Mean cosine of the phase function, -0.99..0.99.
+    pub g: Option<f32>,
+}
+
+/// The core of fur by the controls of [`crate::FurControls`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct FurFile {
+    /// Colour of the cortex: another name for the material's `color`.
+    pub base_color: Option<[f32; 3]>,
+    /// Colour of the medulla; as the cortex when absent.
+    pub medulla_color: Option<[f32; 3]>,
+    /// How much of the fibre is medulla, 0..1; 0.5 when absent.
+    pub medulla_index: Option<f32>,
+    /// How much it scatters, 0..5; 0.065 when absent.
+    pub medulla_scattering: Option<f32>,
+    /// Layers of cuticle scales.
+    pub cuticle_layers: Option<f32>,
+}
+
+/// How strands differ: see [`crate::Variation`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct VariationFile {
+    /// Everything random follows from it; 0 when absent.
+    pub seed: Option<u64>,
+    /// Amount of the factor on the pigment, 0..1.
+    pub pigment: Option<f32>,
+    /// How far redness moves, 0..1.
+    pub redness: Option<f32>,
+    /// How far the hue turns to either side, degrees.
+    pub hue: Option<f32>,
+    /// Amount of the factor on the colour's value, 0..1.
+    pub value: Option<f32>,
+    /// Amount of the factor on the roughness, 0..0.99.
+    pub roughness: Option<f32>,
+    /// Share of white hairs, 0..1.
+    pub white: Option<f32>,
+    /// Melanin of white hairs, 0..1; none when absent.
+    pub white_melanin: Option<f32>,
+    /// Colour of white hairs.
+    pub white_color: Option<[f32; 3]>,
+}
+
+/// Factors from root to tip: how far along (0 to 1) and the factor there, at least 0.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct AlongFile {
+    /// On the absorption.
+    pub absorption: Option<Vec<(f32, f32)>>,
+    /// On the concentration of melanin.
+    pub melanin: Option<Vec<(f32, f32)>>,
+}
+
+/// How wide a fibre is on the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum FieldName {
+    /// Every hit has its own offset across the fibre.
+    Near,
+    /// The offset is integrated out.
+    Far,
+}

@@ -1,0 +1,161 @@
+//! Materials from files, texts and presets.
+
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+use strict_yaml::Fault;
+
+use crate::file::MaterialFile;
+use crate::{Material, MaterialError, Picture, Preset};
+
+/// Material files that begin with each other, at most this many deep.
+const DEEPEST: u32 = 8;
+
+impl MaterialFile {
+    /// Reads a text; `name` is what messages call it.
+    ///
+    /// # Errors
+    /// [`MaterialError::File`] with the line and the right word for a mistyped one.
+    pub fn from_yaml(text: &str, name: &str) -> Result<MaterialFile, MaterialError> {
+        strict_yaml::parse(text).map_err(|fault| {
+            let (file, key) = (PathBuf::from(name), String::new());
+            let place = fault.place.map(|place| (place.line, place.column));
+            MaterialError::File(vec![Fault { file, place, key, message: fault.message }])
+        })
+    }
+
+    /// The file with its `preset` or `file` laid under it and their place taken, and paths that hold from
+    /// where the program stands: those in it count from `base`.
+    ///
+    /// # Errors
+    /// [`MaterialError`] for a preset that is none, or a file that cannot be read, or files that begin with
+    /// each other in a circle.
+    pub fn resolved(self, base: &Path) -> Result<MaterialFile, MaterialError> {
+        self.resolved_within(base, DEEPEST)
+    }
+
+    fn resolved_within(mut self, base: &Path, depth: u32) -> Result<MaterialFile, MaterialError> {
+        if let Some(texture) = &mut self.texture {
+            texture.file = base.join(&texture.file);
+        }
+        let under = match (self.preset.take(), self.file.take()) {
+            (Some(preset), Some(_)) => {
+                let expected = "one of `preset` and `file` to begin with";
+                return Err(MaterialError::value("preset", format!("`{preset}` beside a file"), expected));
+            }
+            (Some(preset), None) => Preset::named(&preset)?.file()?,
+            (None, Some(file)) => {
+                let path = base.join(file);
+                let deeper = depth.checked_sub(1).ok_or_else(|| {
+                    let expected = "files that do not begin with each other";
+                    MaterialError::value("file", format!("`{}`", path.display()), expected)
+                })?;
+                let (file, text) = read(&path)?;
+                let folder = path.parent().unwrap_or(Path::new(""));
+                let under = file.resolved_within(folder, deeper)?;
+                // Its faults are told here, where its text is at hand.
+                under.checked(&path, &text)?;
+                under
+            }
+            (None, None) => return Ok(self),
+        };
+        Ok(self.over(under))
+    }
+
+    /// The material, its pictures read; `path` and `text` are for messages.
+    fn finished(&self, path: &Path, text: &str) -> Result<Material, MaterialError> {
+        let load = |path: &Path| Picture::open(path).map(Arc::new);
+        self.material(&load).map_err(|faults| placed(faults, path, text))
+    }
+
+    /// Checks everything but the pixels of pictures.
+    fn checked(&self, path: &Path, text: &str) -> Result<(), MaterialError> {
+        self.material(&blank).map(drop).map_err(|faults| placed(faults, path, text))
+    }
+
+    /// Every file that a change of would change this material, the ones it begins with and its picture;
+    /// paths in it count from `base`.
+    ///
+    /// # Errors
+    /// As [`MaterialFile::resolved`].
+    pub fn files(&self, base: &Path) -> Result<Vec<PathBuf>, MaterialError> {
+        let mut files = Vec::new();
+        let (mut file, mut base) = (self.clone(), base.to_owned());
+        for _ in 0..=DEEPEST {
+            files.extend(file.texture.as_ref().map(|texture| base.join(&texture.file)));
+            let Some(next) = file.file.take() else { return Ok(files) };
+            let path = base.join(next);
+            file = read(&path)?.0;
+            base = path.parent().unwrap_or(Path::new("")).to_owned();
+            files.push(path);
+        }
+        Ok(files)
+    }
+}
+
+/// Stands for a picture that is there and need not be read: its colours matter to no check.
+fn blank(path: &Path) -> Result<Arc<Picture>, MaterialError> {
+    match std::fs::metadata(path) {
+        Ok(data) if data.is_file() => Ok(Arc::new(Picture::new(1, vec![glam::Vec3::ONE])?)),
+        Ok(_) => Err(MaterialError::picture(path, "it is no file")),
+        Err(source) => Err(MaterialError::Io { path: path.to_owned(), source }),
+    }
+}
+
+/// A material file and its text.
+fn read(path: &Path) -> Result<(MaterialFile, String), MaterialError> {
+    let io = |source| MaterialError::Io { path: path.to_owned(), source };
+    let text = String::from_utf8(std::fs::read(path).map_err(io)?).map_err(|error| {
+        let message = format!("byte {} is not UTF-8, as YAML has to be", error.utf8_error().valid_up_to());
+        MaterialError::File(vec![Fault { file: path.to_owned(), place: None, key: String::new(), message }])
+    })?;
+    Ok((MaterialFile::from_yaml(&text, &path.to_string_lossy())?, text))
+}
+
+/// Faults by key, with the places of their values.
+fn placed(faults: Vec<(String, String)>, path: &Path, text: &str) -> MaterialError {
+    let place = |key: &str| {
+        let keys: Vec<&str> = key.split('.').collect();
+        strict_yaml::locate(text, &keys).map(|place| (place.line, place.column))
+    };
+    let fault = |(key, message): (String, String)| {
+        let place = if key.is_empty() { None } else { place(&key) };
+        Fault { file: path.to_owned(), place, key, message }
+    };
+    MaterialError::File(faults.into_iter().map(fault).collect())
+}
+
+impl Material {
+    /// Reads a material file.
+    ///
+    /// # Errors
+    /// [`MaterialError::Io`], or [`MaterialError::File`] with every fault that could be found.
+    pub fn open(path: &Path) -> Result<Material, MaterialError> {
+        let (file, text) = read(path)?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        file.resolved(folder)?.finished(path, &text)
+    }
+
+    /// The material of a text; `name` is what messages call it. Paths in it count from where the program
+    /// stands.
+    ///
+    /// # Errors
+    /// As [`Material::open`].
+    pub fn from_yaml(text: &str, name: &str) -> Result<Material, MaterialError> {
+        MaterialFile::from_yaml(text, name)?.resolved(Path::new(""))?.finished(Path::new(name), text)
+    }
+
+    /// The material called `name`, one of [`Material::preset_names`].
+    ///
+    /// # Errors
+    /// [`MaterialError::Preset`] with the name that may have been meant.
+    pub fn preset(name: &str) -> Result<Material, MaterialError> {
+        let preset = Preset::named(name)?;
+        preset.file()?.finished(Path::new(preset.name), preset.keys)
+    }
+
+    /// The names of all presets.
+    pub fn preset_names() -> impl Iterator<Item = &'static str> {
+        Preset::all().iter().map(|preset| preset.name)
+    }
+}

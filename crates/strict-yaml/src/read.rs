@@ -1,0 +1,107 @@
+//! YAML to a struct.
+
+use serde::de::DeserializeOwned;
+use serde_yaml::Value;
+
+use crate::fault::{Place, YamlFault, place_of};
+use crate::{twins, words};
+
+/// Reads a `T`; keys are refused where `T` refuses them (`serde(deny_unknown_fields)`).
+///
+/// An empty text is a `T` that says nothing: the default.
+///
+/// # Errors
+/// A [`YamlFault`] with the place of whatever is no YAML, twice there, of another type or unknown; an
+/// unknown key comes with the name that may have been meant.
+pub fn parse<T: DeserializeOwned + Default>(text: &str) -> Result<T, YamlFault> {
+    if text.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
+        return Ok(T::default());
+    }
+    check_nesting(text)?;
+    let fault = |error: &serde_yaml::Error| YamlFault { place: place_of(error), message: in_words(error) };
+    serde_yaml::from_str(text).map_err(|error| match twins::second_of_a_pair(text) {
+        // The library places a doubled key at the beginning of the mapping it is in.
+        Some(place) if error.to_string().contains("duplicate field") => {
+            YamlFault { place: Some(place), ..fault(&error) }
+        }
+        _ => fault(&error),
+    })
+}
+
+/// The library's message without its place, which is told apart, in plain words.
+fn in_words(error: &serde_yaml::Error) -> String {
+    let full = error.to_string();
+    let cut = full.rfind(" at line ").filter(|_| error.location().is_some());
+    words::plain(&full[..cut.unwrap_or(full.len())])
+}
+
+/// Brackets deeper than this are an attack: the library takes quadratic time for them.
+const DEEPEST: usize = 128;
+
+fn check_nesting(text: &str) -> Result<(), YamlFault> {
+    let mut depth = 0_usize;
+    for (index, line) in text.lines().enumerate() {
+        for (column, c) in line.chars().enumerate() {
+            match c {
+                '[' | '{' => depth += 1,
+                ']' | '}' => depth = depth.saturating_sub(1),
+                _ => {}
+            }
+            if depth > DEEPEST {
+                let place = Some(Place { line: index + 1, column: column + 1 });
+                return Err(YamlFault { place, message: format!("more than {DEEPEST} brackets are open") });
+            }
+        }
+    }
+    Ok(())
+}
+
+/// As [`parse`], with `path=value` settings laid over the text, each as `render.spp=4`.
+///
+/// # Errors
+/// As [`parse`]; a fault that a setting brought in names the setting and has no place.
+pub fn parse_with<T: DeserializeOwned + Default>(text: &str, settings: &[String]) -> Result<T, YamlFault> {
+    // The text alone first: its faults have places, those of the laid-over tree do not.
+    let read = parse(text)?;
+    if settings.is_empty() {
+        return Ok(read);
+    }
+    let place_of_none = |message| YamlFault { place: None, message };
+    let mut tree: Value = serde_yaml::from_str(text).map_err(|e| place_of_none(e.to_string()))?;
+    let mut read = read;
+    for setting in settings {
+        let fault = |message: String| place_of_none(format!("--set {setting}: {message}"));
+        let (path, value) =
+            setting.split_once('=').ok_or_else(|| fault("expected `key.key=value`".into()))?;
+        check_nesting(value).map_err(|f| fault(f.message))?;
+        let value: Value = serde_yaml::from_str(value).map_err(|e| fault(in_words(&e)))?;
+        lay(&mut tree, path.trim(), value).map_err(fault)?;
+        read = serde_yaml::from_value(tree.clone()).map_err(|e| fault(in_words(&e)))?;
+    }
+    Ok(read)
+}
+
+fn lay(tree: &mut Value, path: &str, value: Value) -> Result<(), String> {
+    let mut here = tree;
+    for key in path.split('.') {
+        if key.is_empty() {
+            return Err("a key is empty".into());
+        }
+        if here.is_null() {
+            *here = Value::Mapping(serde_yaml::Mapping::new());
+        }
+        here = match here {
+            Value::Mapping(map) => map.entry(Value::from(key)).or_insert(Value::Null),
+            Value::Sequence(list) => {
+                let count = list.len();
+                let index = key.parse::<usize>().ok().filter(|&i| i < count);
+                let index =
+                    index.ok_or_else(|| format!("`{key}` is none of the {count} entries (0, 1, ...)"))?;
+                &mut list[index]
+            }
+            _ => return Err(format!("there are no keys below the one before `{key}`")),
+        };
+    }
+    *here = value;
+    Ok(())
+}
