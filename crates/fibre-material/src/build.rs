@@ -38,8 +38,10 @@ impl MaterialFile {
         let color = build.color(load);
         let parameters = build.parameters;
         let material = Material { parameters, color, medulla, medulla_as_cortex, variation, field };
-        if build.faults.is_empty() {
-            build.refuse("", material.check());
+        if build.faults.is_empty()
+            && let Err(error) = material.check()
+        {
+            build.named(error);
         }
         if build.faults.is_empty() { Ok(material) } else { Err(build.faults) }
     }

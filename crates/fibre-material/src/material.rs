@@ -85,7 +85,7 @@ impl Material {
         for (name, beta) in [("beta_m", self.parameters.beta_m), ("beta_n", self.parameters.beta_n)] {
             let (least, most) = (beta * (1.0 - roughness), beta * (1.0 + roughness));
             if *roughness > 0.0 && !(least >= 0.001 && most <= 1.0) {
-                let found = format!("{roughness}, which takes {name} from {least} to {most}");
+                let found = format!("{roughness}, which takes {name} from {least:.4} to {most:.4}");
                 return Err(MaterialError::value(
                     "variation.roughness",
                     found,
