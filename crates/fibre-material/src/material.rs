@@ -74,7 +74,7 @@ impl Material {
             if bad { Err(MaterialError::value(what, found, expected)) } else { Ok(()) }
         };
         let colors = "0: it is for color, color_ramp, texture and groom colours (redness is for pigments)";
-        needs(*hue > 0.0 && !is_fitted, "variation.hue", *hue, colors)?;
+        needs(*hue > 0.0 && !is_fitted, "variation.hue", (360.0 * hue).round(), colors)?;
         needs(*value > 0.0 && !is_fitted, "variation.value", *value, colors)?;
         let pigments = "0: it is for melanin and pigments (hue is for colours)";
         needs(*redness > 0.0 && !has_redness, "variation.redness", *redness, pigments)?;

@@ -101,7 +101,7 @@ fn faults_have_their_file_line_key_value_and_range() {
         ("variation: {white: 1.5}", "a.yaml:1:20: variation.white: is 1.5, expected 0..1"),
         ("variation: {hue: 200}", "a.yaml:1:18: variation.hue: is 200, expected 0..180 degrees"),
         ("variation: {white_melanin: 0.1}", "add `white: 0.1`"),
-        ("melanin: 1\nvariation: {hue: 20}", "variation.hue is"),
+        ("melanin: 1\nvariation: {hue: 20}", "a.yaml:2:18: variation.hue: is 20, expected 0: it is for color"),
         (
             "beta_m: 0.9\nvariation: {roughness: 0.5}",
             "a.yaml:2:24: variation.roughness: is 0.5, which takes beta_m from 0.4500 to 1.3500",
