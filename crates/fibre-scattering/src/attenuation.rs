@@ -1,6 +1,7 @@
 //! How much light each lobe carries: Fresnel's equations and Beer's law over the chord.
 
 use crate::real::Real;
+use crate::surface::Surface;
 
 /// The fibre's cross-section as light from one direction meets it at one offset.
 #[derive(Debug, Clone, Copy)]
@@ -26,8 +27,17 @@ impl<T: Real> Chord<T> {
     ///
     /// Every root is of `eta^2 - 1` plus a square: written so, neither grazing light nor an index
     /// next to 1 cancels, and `eta' = sqrt(eta^2 - sin^2) / cos` is never divided by.
+    #[allow(dead_code)] // waits for fur
     pub fn new(eta2_minus_1: T, cos_theta: T, h: T) -> Self {
-        let e = eta2_minus_1;
+        Chord::reflecting(eta2_minus_1, cos_theta, h, |cos| fresnel(eta2_minus_1, cos))
+    }
+
+    /// [`Chord::new`] under a surface that is not bare.
+    pub fn under(surface: &Surface<T>, cos_theta: T, h: T) -> Self {
+        Chord::reflecting(surface.eta2_minus_1, cos_theta, h, |cos| surface.reflectance(cos))
+    }
+
+    fn reflecting(e: T, cos_theta: T, h: T, reflectance: impl FnOnce(T) -> T) -> Self {
         let cos2_theta = cos_theta * cos_theta;
         let cos2_gamma = (T::ONE - h) * (T::ONE + h);
         let eta2 = T::ONE + e;
@@ -38,7 +48,7 @@ impl<T: Real> Chord<T> {
         // 2 cos(gamma_t) / cos(theta_t), where cos(theta_t) = bent / eta.
         let length = T::TWO * cos_gamma_t * eta2.sqrt() / bent;
         Chord {
-            fresnel: fresnel(e, cos_theta * cos2_gamma.sqrt()),
+            fresnel: reflectance(cos_theta * cos2_gamma.sqrt()),
             length,
             gamma_i: h.asin(),
             gamma_t: sin_gamma_t.max(-T::ONE).min(T::ONE).asin(),
@@ -62,6 +72,28 @@ impl<T: Real> Chord<T> {
         let residual = if rest > T::ZERO { trt * pass * reflected / rest } else { T::ZERO };
         [reflected, tt, trt, residual]
     }
+}
+
+/// A_0 .. A_3 of a fibre that is not round: `reflected` is what the surface reflects where it is met for the
+/// first, second and third time, `depths` are the optical depths of the two crossings between.
+///
+/// What has been reflected twice inside goes on as if every meeting from there on were the mean of those
+/// three, and every crossing the mean of those two: a geometric series, which without absorption returns all
+/// of it. (Of three, for the two inside may be total, and no ray that entered is caught for ever.)
+pub(crate) fn attenuations_of_three<T: Real>(reflected: [T; 3], depths: [T; 2]) -> [T; 4] {
+    let passes = depths.map(|depth| (-depth).exp());
+    let entered = T::ONE - reflected[0];
+    let tt = entered * (T::ONE - reflected[1]) * passes[0];
+    let once = entered * reflected[1] * passes[0] * passes[1];
+    let trt = once * (T::ONE - reflected[2]);
+    let left = once * reflected[2];
+    let mean = (reflected[0] + reflected[1] + reflected[2]) * T::of(1.0 / 3.0);
+    let leaving = (entered + (T::ONE - reflected[1]) + (T::ONE - reflected[2])) * T::of(1.0 / 3.0);
+    let depth = T::of(0.5) * (depths[0] + depths[1]);
+    // 1 - F T as two positive parts, as above.
+    let rest = leaving - mean * (-depth).exp_m1();
+    let residual = if rest > T::ZERO { left * ((-depth).exp() * leaving / rest) } else { T::ZERO };
+    [reflected[0], tt, trt, residual]
 }
 
 /// Unpolarised reflectance of a dielectric of `eta^2 = 1 + e` at `cos` of incidence.

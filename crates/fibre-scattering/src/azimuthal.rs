@@ -31,11 +31,9 @@ impl<T: Real> Centres<T> {
         Centres { coss: [r.0, -tt.0, trt.0, T::ONE], sins: [r.1, -tt.1, trt.1, T::ZERO] }
     }
 
-    /// Of any fibre, from the azimuths of R, TT and TRT.
-    #[allow(dead_code)] // for fibres that are not round
-    pub fn of_azimuths([r, tt, trt]: [T; 3]) -> Self {
-        let (sins, coss) = T::Four::from([r, tt, trt, T::ZERO]).sin_cos();
-        Centres { coss: coss.into(), sins: sins.into() }
+    /// Of any fibre, from the cosines and sines of R, TT and TRT.
+    pub fn of_turns([r, tt, trt]: [(T, T); 3]) -> Self {
+        Centres { coss: [r.0, tt.0, trt.0, T::ONE], sins: [r.1, tt.1, trt.1, T::ZERO] }
     }
 
     /// `(cos, sin)` of lobe `p`'s azimuth.
@@ -48,30 +46,30 @@ impl<T: Real> Centres<T> {
 /// one that is the same all around.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct TrimmedLogistic<T> {
-    scale: T,
+    scales: [T; 4],
     /// `1 / s` of each lobe.
     inverse_scales: [T; 4],
     /// `1 / (s k)` of each lobe, k as below.
     heights: [T; 4],
     /// The share of the untrimmed density inside the turn: `k = tanh(pi / 2s)`.
-    inside: T,
+    inside: [T; 4],
     /// `1 - k`, which `k` itself cannot show for a smooth fibre.
-    outside: T,
+    outside: [T; 4],
 }
 
 impl<T: Real> TrimmedLogistic<T> {
-    /// `scale > 0`, in radians.
-    pub fn new(scale: f64) -> Self {
-        let edge = (-std::f64::consts::PI / scale).exp();
-        let inside = (1.0 - edge) / (1.0 + edge);
-        let (inverse, height) = (T::of(1.0 / scale), T::of(1.0 / (scale * inside)));
+    /// Of R, TT and TRT; each of `scales > 0`, in radians.
+    pub fn new([r, tt, trt]: [f64; 3]) -> Self {
+        let edge = |scale: f64| (-std::f64::consts::PI / scale).exp();
+        let inside = |scale: f64| (1.0 - edge(scale)) / (1.0 + edge(scale));
+        let lobes = |last: f64, of: &dyn Fn(f64) -> f64| [of(r), of(tt), of(trt), last].map(T::of);
         TrimmedLogistic {
-            scale: T::of(scale),
+            scales: lobes(0.0, &|scale| scale),
             // A logistic without width is a fourth of its height everywhere.
-            inverse_scales: [inverse, inverse, inverse, T::ZERO],
-            heights: [height, height, height, T::of(4.0) / T::TAU],
-            inside: T::of(inside),
-            outside: T::of(2.0 * edge / (1.0 + edge)),
+            inverse_scales: lobes(0.0, &|scale| 1.0 / scale),
+            heights: lobes(4.0 / std::f64::consts::TAU, &|scale| 1.0 / (scale * inside(scale))),
+            inside: lobes(1.0, &inside),
+            outside: lobes(0.0, &|scale| 2.0 * edge(scale) / (1.0 + edge(scale))),
         }
     }
 
@@ -88,15 +86,16 @@ impl<T: Real> TrimmedLogistic<T> {
         falls * T::Four::from(self.heights) / (below * below)
     }
 
-    /// The ratio whose logarithm, times the scale, is an angle distributed as the density of R, TT and TRT.
-    pub fn odds(&self, u: T) -> T {
-        let before = self.outside + T::TWO * self.inside * u;
-        let after = self.outside + T::TWO * self.inside * (T::ONE - u);
+    /// The ratio whose logarithm, times the scale, is an angle distributed as the density of lobe `p`, one of
+    /// R, TT and TRT.
+    pub fn odds(&self, p: usize, u: T) -> T {
+        let before = self.outside[p] + T::TWO * self.inside[p] * u;
+        let after = self.outside[p] + T::TWO * self.inside[p] * (T::ONE - u);
         before / after
     }
 
     /// That angle, in [-pi, pi].
-    pub fn angle(&self, ln_odds: T) -> T {
-        (self.scale * ln_odds).max(-T::PI).min(T::PI)
+    pub fn angle(&self, p: usize, ln_odds: T) -> T {
+        (self.scales[p] * ln_odds).max(-T::PI).min(T::PI)
     }
 }

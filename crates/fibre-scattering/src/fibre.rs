@@ -3,17 +3,21 @@
 //! f cos(theta_i) = sum over p of A_p(h) M_p(theta_i) N_p(phi): Chiang et al. 2016, "A Practical
 //! and Controllable Hair and Fur Model for Production Path Tracing" (doi:10.1111/cgf.12830).
 
-use crate::attenuation::Chord;
+use crate::attenuation::{Chord, attenuations_of_three};
 use crate::azimuthal::{Centres, RESIDUAL, TrimmedLogistic};
+use crate::ellipse::Ellipse;
 use crate::lanes::Lanes;
 use crate::longitudinal::{Inclination, Longitudinal, Mirrors};
-use crate::parameters::{HairParameters, azimuthal_deviation, longitudinal_variance};
+use crate::parameters::{HairParameters, azimuthal_deviation};
 use crate::real::{Real, four};
+use crate::surface::Surface;
 
 /// What depends on the material alone.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fibre<T> {
-    eta2_minus_1: T,
+    surface: Surface<T>,
+    /// `None` for a round fibre.
+    ellipse: Option<Ellipse>,
     pub sigma_a: [T; 3],
     lobe_weights: [T; 5],
     /// Sine and cosine of the tilt each lobe gives the outgoing inclination.
@@ -31,26 +35,47 @@ struct Spread<T> {
 impl<T: Real> Fibre<T> {
     /// `parameters` have passed their check.
     pub fn new(parameters: &HairParameters) -> Self {
-        let beta_m = f64::from(parameters.beta_m);
-        let beta_n = f64::from(parameters.beta_n);
-        let eta = f64::from(parameters.eta);
-        let alpha = f64::from(parameters.alpha);
-        let v = longitudinal_variance(beta_m);
+        let around = logistic_scale(parameters.beta_n);
+        // What shines on wet hair is the water: as smooth as that, without scales, without their tilt.
+        let (first_around, first_tilt) = match parameters.film {
+            Some(film) => (logistic_scale(film.roughness), 0.0),
+            None => (around, 1.0),
+        };
+        let mut tilts = tilts(f64::from(parameters.alpha));
+        tilts[0] *= first_tilt;
         Fibre {
-            eta2_minus_1: T::of((eta - 1.0) * (eta + 1.0)),
+            surface: Surface::new(parameters),
+            ellipse: (parameters.aspect < 1.0).then(|| Ellipse { aspect: f64::from(parameters.aspect) }),
             sigma_a: parameters.sigma_a.to_array().map(|s| T::of(f64::from(s))),
             lobe_weights: parameters.lobe_weights.map(|w| T::of(f64::from(w))),
-            tilts: tilts(alpha).map(|tilt| (T::of(tilt.sin()), T::of(tilt.cos()))),
+            tilts: tilts.map(|tilt| (T::of(tilt.sin()), T::of(tilt.cos()))),
             spread: Spread {
-                along: Longitudinal::new([v, 0.25 * v, 4.0 * v, 4.0 * v]),
-                around: TrimmedLogistic::new(logistic_scale(beta_n)),
+                along: Longitudinal::new(parameters.variances()),
+                around: TrimmedLogistic::new([first_around, around, around]),
             },
         }
     }
 
     /// Prepares all that does not depend on `wi`.
     pub fn at(&self, wo: [T; 3], h: T) -> Hit<T> {
-        self.at_through(wo, h, |chord| self.sigma_a.map(|sigma_a| sigma_a * chord.length)).0
+        match self.ellipse {
+            None => self.at_through(wo, h, |chord| self.sigma_a.map(|sigma_a| sigma_a * chord.length)).0,
+            Some(ellipse) => self.at_ellipse(ellipse, wo, h),
+        }
+    }
+
+    fn at_ellipse(&self, ellipse: Ellipse, wo: [T; 3], h: T) -> Hit<T> {
+        let (theta_o, turn_o) = inclination_and_turn(wo);
+        let e = self.surface.eta2_minus_1.double();
+        let cos_theta = theta_o.cos.min(T::ONE).double();
+        let h = h.max(-T::ONE).min(T::ONE).double();
+        let crossing = ellipse.crossing(e, cos_theta, turn_o.map(T::double), h);
+        let reflected = crossing.cos2.map(|cos2| self.surface.reflectance_of_leaving(T::of(cos2)));
+        let [red, green, blue] = self.sigma_a.map(|sigma_a| {
+            attenuations_of_three(reflected, crossing.lengths.map(|length| sigma_a * T::of(length)))
+        });
+        let centres = Centres::of_turns(crossing.turns.map(|(cos, sin)| (T::of(cos), T::of(sin))));
+        self.hit(theta_o, turn_o, centres, [red, green, blue])
     }
 
     /// [`Fibre::at`] where the optical depth of one crossing, per channel, is `depths` and not that of a
@@ -63,33 +88,43 @@ impl<T: Real> Fibre<T> {
     ) -> (Hit<T>, Chord<T>) {
         let h = h.max(-T::ONE).min(T::ONE);
         let (theta_o, turn_o) = inclination_and_turn(wo);
-        let chord = Chord::new(self.eta2_minus_1, theta_o.cos.min(T::ONE), h);
+        let chord = Chord::under(&self.surface, theta_o.cos.min(T::ONE), h);
         let [red, green, blue] = depths(&chord);
         let red = chord.attenuations_through(red);
         let green = chord.attenuations_through(green);
         let blue = chord.attenuations_through(blue);
+        (self.hit(theta_o, turn_o, Centres::round(&chord), [red, green, blue]), chord)
+    }
+
+    /// From where the lobes leave and what each carries, per channel.
+    fn hit(
+        &self,
+        theta_o: Inclination<T>,
+        turn_o: [T; 2],
+        centres: Centres<T>,
+        [red, green, blue]: [[T; 4]; 3],
+    ) -> Hit<T> {
         let attenuations = four(|p| {
             let weight = self.lobe_weights[p];
             [red[p] * weight, green[p] * weight, blue[p] * weight]
         });
         let (probabilities, most) = probabilities(&attenuations);
-        let hit = Hit {
+        Hit {
             turn_o,
             mirrors: Mirrors::new(theta_o, self.tilts),
-            centres: Centres::round(&chord),
+            centres,
             probabilities,
             most,
             attenuations,
             spread: self.spread,
-        };
-        (hit, chord)
+        }
     }
 }
 
 /// The logistic's scale from the roughness around the fibre: Chiang et al. 2016, eq. 8. The root of
 /// pi/8 gives the logistic the peak of a Gaussian of that deviation.
-fn logistic_scale(beta_n: f64) -> f64 {
-    (std::f64::consts::PI / 8.0).sqrt() * azimuthal_deviation(beta_n)
+fn logistic_scale(beta_n: f32) -> f64 {
+    (std::f64::consts::PI / 8.0).sqrt() * azimuthal_deviation(f64::from(beta_n))
 }
 
 /// How far each lobe turns the outgoing inclination. The residual has met so many scales that no
@@ -222,10 +257,10 @@ impl<T: Real> Hit<T> {
         let drop = along.drop(p, u[1]);
         let left = T::ONE + drop;
         let [ln_left, ln_odds, ..]: [T; 4] =
-            T::Four::from([left, around.odds(u[3]), T::ONE, T::ONE]).ln().into();
+            T::Four::from([left, around.odds(p, u[3]), T::ONE, T::ONE]).ln().into();
         // What rounding took from 1 + drop is given back: a wide lobe's drop is small.
         let ln_drop = ln_left + (drop - (left - T::ONE)) / left;
-        let phi = if p == RESIDUAL { T::TAU * u[3] } else { around.angle(ln_odds) };
+        let phi = if p == RESIDUAL { T::TAU * u[3] } else { around.angle(p, ln_odds) };
         let (sins, coss) = T::Four::from([phi, T::TAU * u[2], T::ZERO, T::ZERO]).sin_cos();
         let ([sin_phi, sin_turn, ..], [cos_phi, cos_turn, ..]): ([T; 4], [T; 4]) = (sins.into(), coss.into());
         let theta_i = along.sample(p, &self.mirrors, ln_drop, (sin_turn, cos_turn));

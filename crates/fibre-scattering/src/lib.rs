@@ -62,6 +62,7 @@ mod attenuation;
 mod azimuthal;
 mod bcsdf;
 mod bessel;
+mod ellipse;
 mod error;
 mod exponential;
 mod far_field;
@@ -91,6 +92,7 @@ mod real;
 mod reference;
 mod sample;
 mod sine;
+mod surface;
 mod surface_of_key;
 
 pub use absorption::{

@@ -65,7 +65,11 @@ impl FurParameters {
     /// The first bound broken.
     pub fn check(&self) -> Result<(), ScatteringError> {
         self.hair.check()?;
-        self.medulla.check()
+        self.medulla.check()?;
+        if self.medulla.kappa > 0.0 {
+            range::within("aspect", self.hair.aspect, 1.0..=1.0, "[1, 1]: a fibre with a medulla is round")?;
+        }
+        Ok(())
     }
 }
 

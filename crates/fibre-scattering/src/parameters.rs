@@ -30,7 +30,8 @@ pub struct HairParameters {
     /// Layers of cuticle scales, as Yan et al. 2017 count them, in [0.01, 100]; `None`, the bare surface, is
     /// Fresnel's reflectance itself.
     pub cuticle_layers: Option<f32>,
-    /// A film of water over the fibre; `None` for dry hair.
+    /// A film of water over the fibre; `None` for dry hair. For hair under water there is no film: give the
+    /// index of the fibre over that of water, 1.55 / 1.33 = 1.165, as `eta`.
     pub film: Option<WaterFilm>,
     /// Smaller over larger axis of an elliptical cross-section, in [0.1, 1]; 1 is round. The larger axis
     /// lies along y of the fibre's frame.
@@ -54,7 +55,12 @@ impl Default for RoughnessScales {
     }
 }
 
-/// A film of water, thin beside the fibre.
+/// A film of water, thin beside the fibre and everywhere parallel to its surface.
+///
+/// Water lies between the fibre and the air, and both steps in index are smaller than the one it replaces:
+/// less is reflected, from outside and from inside, and more light goes through, forward and through
+/// pigment. Wet hair is darker. What it does reflect comes from the smooth water and not from the cuticle:
+/// R takes the film's roughness and no tilt, and wet hair shines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct WaterFilm {
     /// Index of refraction of the film over that of air, in [1.0001, 3].
@@ -122,9 +128,20 @@ impl HairParameters {
     /// which MaterialX's `chiang_hair_bsdf` applies itself (its `roughness_R`, `roughness_TT`, `roughness_TRT`).
     #[must_use]
     pub fn lobe_spreads(&self) -> [[f32; 2]; 3] {
-        let v = longitudinal_variance(f64::from(self.beta_m));
-        let s = azimuthal_deviation(f64::from(self.beta_n));
-        [v, 0.25 * v, 4.0 * v].map(|v| [v as f32, s as f32])
+        let [r, tt, trt, _] = self.variances();
+        let first = self.film.map_or(self.beta_n, |film| film.roughness);
+        let scale = |beta_n: f32| azimuthal_deviation(f64::from(beta_n));
+        [(r, first), (tt, self.beta_n), (trt, self.beta_n)].map(|(v, beta)| [v as f32, scale(beta) as f32])
+    }
+
+    /// The longitudinal variance of R, TT, TRT and the residual, which is as rough as TRT. R's is the film's
+    /// where there is one.
+    pub(crate) fn variances(&self) -> [f64; 4] {
+        let dry = longitudinal_variance(f64::from(self.beta_m));
+        let first = self.film.map_or(dry, |film| longitudinal_variance(f64::from(film.roughness)));
+        let scaled = |scale: f32| dry * f64::from(scale) * f64::from(scale);
+        let RoughnessScales { tt, trt } = self.roughness_scales;
+        [first, scaled(tt), scaled(trt), scaled(trt)]
     }
 }
 
@@ -154,10 +171,17 @@ mod tests {
     #[test]
     fn spreads_are_those_of_materialx() {
         // What ND_chiang_hair_roughness gives for longitudinal 0.1, azimuthal 0.2 and scales 0.5 and 2.
-        let parameters = HairParameters { beta_m: 0.1, beta_n: 0.2, ..HairParameters::default() };
+        let mut parameters = HairParameters { beta_m: 0.1, beta_n: 0.2, ..HairParameters::default() };
         let [r, tt, trt] = parameters.lobe_spreads();
         let v = (0.0726_f32 + 0.00812).powi(2);
         for (found, expected) in [(r, v), (tt, 0.25 * v), (trt, 4.0 * v)] {
+            assert!((found[0] - expected).abs() < 1e-7 && (found[1] - 0.10076).abs() < 1e-6, "{found:?}");
+        }
+        parameters.roughness_scales = RoughnessScales { tt: 1.5, trt: 0.8 };
+        parameters.film = Some(WaterFilm { roughness: 0.2, ..WaterFilm::default() });
+        let [r, tt, trt] = parameters.lobe_spreads();
+        let film = longitudinal_variance(f64::from(0.2_f32)) as f32;
+        for (found, expected) in [(r, film), (tt, 2.25 * v), (trt, 0.64 * v)] {
             assert!((found[0] - expected).abs() < 1e-7 && (found[1] - 0.10076).abs() < 1e-6, "{found:?}");
         }
     }

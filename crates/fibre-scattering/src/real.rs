@@ -39,6 +39,8 @@ pub(crate) trait Real:
     fn of_count(count: u16) -> Self;
     /// The whole part of a value of at least 0.
     fn whole(self) -> usize;
+    /// The same in double precision.
+    fn double(self) -> f64;
     fn abs(self) -> Self;
     fn max(self, other: Self) -> Self;
     fn min(self, other: Self) -> Self;
@@ -65,6 +67,9 @@ macro_rules! real {
             #[inline(always)]
             fn of(value: f64) -> Self {
                 value as $real
+            }
+            fn double(self) -> f64 {
+                f64::from(self)
             }
             #[inline(always)]
             fn of_count(count: u16) -> Self {

@@ -2,9 +2,11 @@
 
 mod support;
 
+use support::WATER;
+
 use fibre_scattering::{
-    Absorption, HairBcsdf, HairParameters, ScatteringError, WaterFilm, absorption_from_color,
-    absorption_from_melanin, absorption_from_pigments, color_from_absorption,
+    Absorption, HairBcsdf, HairParameters, RoughnessScales, ScatteringError, WaterFilm,
+    absorption_from_color, absorption_from_melanin, absorption_from_pigments, color_from_absorption,
 };
 use glam::Vec3;
 use proptest::prelude::*;
@@ -22,22 +24,40 @@ fn absorption() -> impl Strategy<Value = f32> {
     prop_oneof![2 => Just(0.0_f32), 4 => (-4.0_f32..=4.0).prop_map(|e| 10.0_f32.powf(e))]
 }
 
+/// Every parameter over its whole range, and what most hair leaves out left out as often as not.
 fn parameters() -> impl Strategy<Value = HairParameters> {
-    (
+    let chiang = (
         roughness(),
         roughness(),
         spanning(-1.57, 1.57),
         spanning(1.0001, 3.0),
         [absorption(), absorption(), absorption()],
+    );
+    let scales = prop_oneof![
+        1 => Just(RoughnessScales::default()),
+        1 => (spanning(0.1, 8.0), spanning(0.1, 8.0)).prop_map(|(tt, trt)| RoughnessScales { tt, trt }),
+    ];
+    let layers = prop::option::of((-2.0_f32..=2.0).prop_map(|e| 10.0_f32.powf(e).clamp(0.01, 100.0)));
+    let film = prop::option::of(
+        (spanning(1.0001, 3.0), roughness()).prop_map(|(eta, roughness)| WaterFilm { eta, roughness }),
+    );
+    let aspect = prop_oneof![2 => Just(1.0_f32), 1 => spanning(0.1, 1.0)];
+    (chiang, scales, layers, film, aspect).prop_map(
+        |((beta_m, beta_n, alpha, eta, sigma_a), roughness_scales, cuticle_layers, film, aspect)| {
+            HairParameters {
+                beta_m,
+                beta_n,
+                alpha,
+                eta,
+                sigma_a: sigma_a.into(),
+                lobe_weights: [1.0; 5],
+                roughness_scales,
+                cuticle_layers,
+                film,
+                aspect,
+            }
+        },
     )
-        .prop_map(|(beta_m, beta_n, alpha, eta, sigma_a)| HairParameters {
-            beta_m,
-            beta_n,
-            alpha,
-            eta,
-            sigma_a: sigma_a.into(),
-            ..HairParameters::default()
-        })
 }
 
 fn unit() -> impl Strategy<Value = Vec3> {
@@ -170,8 +190,6 @@ fn absorption_per_strand_is_the_same_as_in_the_material() {
     let part = Absorption::default().toward(Absorption::of_cortex(sigma_a).unwrap(), 0.25);
     assert!((part.cortex() - 0.25 * sigma_a).length() < 1e-7);
 }
-
-const WATER: WaterFilm = WaterFilm { eta: 1.33, roughness: 0.1 };
 
 #[test]
 fn parameters_outside_their_bounds_are_refused_by_name() {

@@ -7,7 +7,7 @@ mod support;
 use std::io::Write;
 use std::path::PathBuf;
 
-use support::{Case, direction, single};
+use support::{Case, PLAIN, direction, single};
 
 struct Row {
     set: String,
@@ -48,6 +48,7 @@ fn row(line: &str) -> Row {
             sigma_a: [n[4], n[5], n[6]],
             theta_o: n[7],
             h: n[8],
+            ..PLAIN
         },
         theta_i: n[9].to_radians(),
         phi: n[10].to_radians(),

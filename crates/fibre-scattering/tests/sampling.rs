@@ -4,7 +4,8 @@ mod support;
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use support::{Case, PLAIN, Random, direction, edges, gauss, single};
+use fibre_scattering::{RoughnessScales, WaterFilm};
+use support::{Case, PLAIN, Random, WATER, direction, edges, gauss, single, wrapped};
 
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
@@ -14,15 +15,32 @@ fn cases() -> Vec<Case> {
             cases.push(Case { beta_m, beta_n, h, theta_o, alpha, sigma_a: [0.1, 0.3, 1.0], ..PLAIN });
         }
     }
+    cases.extend(beyond_chiang());
     cases
+}
+
+/// What Chiang's model does not have: other scales, layers, water, ellipses.
+fn beyond_chiang() -> [Case; 8] {
+    let base = Case { beta_m: 0.2, beta_n: 0.25, h: -0.4, sigma_a: [0.1, 0.3, 1.0], ..PLAIN };
+    let scales = RoughnessScales { tt: 3.0, trt: 0.2 };
+    [
+        Case { scales, ..base },
+        Case { layers: Some(2.45), ..base },
+        Case { film: Some(WATER), ..base },
+        Case { film: Some(WaterFilm { roughness: 0.01, ..WATER }), layers: Some(0.1), h: 0.99, ..base },
+        Case { aspect: 0.3, phi_o: 40.0, ..base },
+        Case { aspect: 0.3, phi_o: 95.0, h: 0.9, theta_o: -70.0, beta_n: 0.01, ..base },
+        Case { aspect: 0.1, phi_o: -130.0, h: -0.8, film: Some(WATER), ..base },
+        Case { aspect: 0.85, phi_o: 10.0, layers: Some(0.5), scales, film: Some(WATER), beta_n: 0.8, ..base },
+    ]
 }
 
 /// Panels over the sphere that no lobe of the case can hide between.
 fn panels(case: &Case) -> (Vec<f64>, Vec<f64>) {
-    let (thetas, sigmas, phis) = (case.thetas(), case.sigmas(), case.phis());
+    let (thetas, sigmas, phis, scales) = (case.thetas(), case.sigmas(), case.phis(), case.logistic_scales());
     let along: Vec<_> = (0..4).map(|p| (thetas[p], 0.7 * sigmas[p])).collect();
     let around: Vec<_> = (0..3)
-        .flat_map(|p| [-2.0 * PI, 0.0, 2.0 * PI].map(|turn| (phis[p] + turn, case.scale())))
+        .flat_map(|p| [-2.0 * PI, 0.0, 2.0 * PI].map(|turn| (phis[p] + turn, scales[p])))
         .chain([-PI, 0.0, PI].map(|seam| (seam, 1.0)))
         .collect();
     (edges(-FRAC_PI_2, FRAC_PI_2, &along), edges(-PI, PI, &around))
@@ -35,7 +53,7 @@ fn expected(case: &Case, along: &[f64], around: &[f64]) -> Vec<f64> {
     for theta in along.windows(2) {
         for phi in around.windows(2) {
             cells.push(gauss(theta[0], theta[1], |t| {
-                let pdf = |x| scatter.evaluate_with_pdf(direction(t, x)).1;
+                let pdf = |x| scatter.evaluate_with_pdf(case.seen(t, x)).1;
                 t.cos() * gauss(phi[0], phi[1], pdf)
             }));
         }
@@ -73,7 +91,7 @@ fn samples_follow_the_density_which_integrates_to_one() {
             };
             let wi = sample.wi.as_dvec3();
             let theta = wi.x.atan2(wi.y.hypot(wi.z));
-            let phi = wi.z.atan2(wi.y);
+            let phi = wrapped(wi.z.atan2(wi.y) - case.phi_o.to_radians());
             found[cell(&along, theta) * (around.len() - 1) + cell(&around, phi)] += 1.0;
             drawn += 1.0;
         }
