@@ -1,5 +1,7 @@
 //! Laws that hold for every fibre: no NaN, symmetry, monotony, bounds that are kept.
 
+#![allow(clippy::print_stdout, clippy::unwrap_used)] // helpers of tests, outside the tests themselves
+
 mod support;
 
 use support::WATER;
@@ -171,6 +173,100 @@ fn averaged_over_offsets_equal_inclinations_are_reciprocal() {
     };
     let (there, back) = (average(a, b), average(b, a));
     assert!((there - back).abs().max_element() < 1e-4 * there.max_element(), "{there} {back}");
+}
+
+/// Per offset: what is scattered, what of it in R, and how far forward it goes on the mean (1 straight on).
+fn seen_by_eye(parameters: &HairParameters) -> (f64, f64, f64) {
+    let bcsdf = HairBcsdf::new(parameters).unwrap();
+    let wo = support::single(support::direction(0.3, 0.0));
+    let (mut all, mut first, mut forward) = (0.0, 0.0, 0.0);
+    let count = 64;
+    for node in 0..count {
+        let scatter = bcsdf.at(wo, (node as f32 + 0.5) / count as f32 * 2.0 - 1.0);
+        let albedo: Vec3 = scatter.albedo().into_iter().sum();
+        all += f64::from(albedo.y) / f64::from(count);
+        first += f64::from(scatter.albedo()[0].y) / f64::from(count);
+        // Azimuths of the lobes' middles: TT goes on, R and TRT come back, the residual goes anywhere.
+        for (lobe, share) in scatter.albedo().into_iter().enumerate().take(3) {
+            let h = f64::from((node as f32 + 0.5) / count as f32 * 2.0 - 1.0);
+            let phi = support::Case { h, theta_o: 0.3_f64.to_degrees(), ..support::PLAIN }.phis()[lobe];
+            forward -= phi.cos() * f64::from(share.y) / f64::from(count);
+        }
+    }
+    (all, first, forward / all)
+}
+
+/// Wet hair, as everybody knows it: darker, for light goes forward and through pigment instead of back; and
+/// shinier, for what the smooth water reflects is gathered in a peak.
+#[test]
+fn wet_hair_is_darker_and_shinier() {
+    let dry = HairParameters { sigma_a: Vec3::new(0.1, 0.3, 0.8), ..HairParameters::default() };
+    let wet = HairParameters { film: Some(WATER), ..dry };
+    let ((all_dry, r_dry, on_dry), (all_wet, r_wet, on_wet)) = (seen_by_eye(&dry), seen_by_eye(&wet));
+    println!(
+        "albedo {all_dry:.4} -> {all_wet:.4}, R {r_dry:.4} -> {r_wet:.4}, forward {on_dry:.4} -> {on_wet:.4}"
+    );
+    assert!(all_wet < 0.995 * all_dry && r_wet < 0.8 * r_dry && on_wet > on_dry + 0.05);
+
+    let peak = |parameters: &HairParameters| {
+        let wo = support::single(support::direction(0.3, 0.0));
+        let scatter = HairBcsdf::new(parameters).unwrap().at(wo, 0.0);
+        let at = |theta: i32| support::single(support::direction(f64::from(theta) * 1e-3, 0.0));
+        (-1500..1500).map(|theta| scatter.evaluate(at(theta)).0[0].y).fold(0.0, f32::max)
+    };
+    println!("peak of R {:.3} -> {:.3}", peak(&dry), peak(&wet));
+    assert!(peak(&wet) > 4.0 * peak(&dry));
+
+    // Without pigment nothing is darker: all light comes back either way.
+    let white = HairParameters { film: Some(WATER), ..HairParameters::default() };
+    assert!((seen_by_eye(&white).0 - 1.0).abs() < 1e-6);
+}
+
+/// Layers reflect more the more there are; half a layer of 2017 is nearly Fresnel's surface.
+#[test]
+fn cuticle_layers_brighten_r() {
+    let r = |cuticle_layers| seen_by_eye(&HairParameters { cuticle_layers, ..HairParameters::default() }).1;
+    let (bare, half) = (r(None), r(Some(0.5)));
+    assert!((half / bare - 1.0).abs() < 0.05, "{half} {bare}");
+    assert!(r(Some(0.1)) < half && half < r(Some(1.0)) && r(Some(1.0)) < r(Some(2.45)));
+}
+
+#[test]
+fn an_ellipse_that_is_nearly_round_is_nearly_the_round_fibre() {
+    let round = HairParameters { sigma_a: Vec3::new(0.1, 0.5, 2.0), ..HairParameters::default() };
+    let worst = |aspect: f32| {
+        let (round, ellipse) =
+            (HairBcsdf::new(&round).unwrap(), HairBcsdf::new(&HairParameters { aspect, ..round }).unwrap());
+        let mut worst = 0.0_f32;
+        for step in 0..400 {
+            let along = f64::from(step % 20) * 0.07 - 0.7;
+            let wo = support::single(support::direction(0.7 - 0.003 * f64::from(step), f64::from(step)));
+            let wi = support::single(support::direction(along, f64::from(step) * 1.7));
+            let h = 0.95 - 0.00475 * step as f32;
+            let (a, b) = (round.at(wo, h).evaluate(wi), ellipse.at(wo, h).evaluate(wi));
+            for (a, b) in a.0.into_iter().zip(b.0) {
+                worst = worst.max((a - b).abs().max_element());
+            }
+        }
+        worst
+    };
+    let differences = [0.9, 0.99, 0.999, 0.9999].map(worst);
+    println!("an ellipse against the round fibre, by 1 - aspect 0.1 .. 0.0001: {differences:?}");
+    assert!(differences.windows(2).all(|pair| pair[1] < 0.2 * pair[0]), "{differences:?}");
+    assert!(differences[3] < 2e-3, "{differences:?}");
+}
+
+/// From the flat side the ribbon is thin and lets light through; from the edge it is thick.
+#[test]
+fn an_ellipse_is_as_thick_as_it_is_seen() {
+    let ribbon = HairParameters { aspect: 0.3, sigma_a: Vec3::ONE, ..HairParameters::default() };
+    let bcsdf = HairBcsdf::new(&ribbon).unwrap();
+    let through = |wo: Vec3| bcsdf.at(wo, 0.0).albedo()[1].x;
+    let entered = 1.0 - HairBcsdf::new(&ribbon).unwrap().at(Vec3::Y, 0.0).albedo()[0].x;
+    for (wo, length) in [(Vec3::Y, 2.0_f32), (Vec3::Z, 0.6), (Vec3::NEG_Z, 0.6)] {
+        let expected = entered * entered * (-length).exp();
+        assert!((through(wo) - expected).abs() < 1e-5, "{} {expected}", through(wo));
+    }
 }
 
 #[test]

@@ -5,7 +5,7 @@ mod support;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use fibre_scattering::{RoughnessScales, WaterFilm};
-use support::{Case, PLAIN, Random, WATER, direction, edges, gauss, single, wrapped};
+use support::{Case, PLAIN, Random, WATER, edges, gauss, single, wrapped};
 
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
@@ -139,16 +139,23 @@ fn a_sample_is_what_evaluation_says() {
 
 #[test]
 fn a_smooth_fibre_mirrors_light_where_geometry_says() {
-    for h in [-0.8, -0.2, 0.0, 0.5, 0.9_f64] {
-        let case = Case { beta_m: 0.001, beta_n: 0.001, alpha: 0.0, h, theta_o: 35.0, ..PLAIN };
+    for (h, aspect, phi_o) in [-0.8, -0.2, 0.0, 0.5, 0.9_f64]
+        .into_iter()
+        .flat_map(|h| [(h, 1.0, 0.0), (h, 0.3, 35.0), (h, 0.6, 160.0), (h, 0.3, -90.0_f64)])
+    {
+        let smooth = Case { beta_m: 0.001, beta_n: 0.001, alpha: 0.0, ..PLAIN };
+        let case = Case { h, theta_o: 35.0, aspect, phi_o, ..smooth };
         let wo = single(case.wo());
-        // wo lies over +y; the side of positive h is that of -z: see the crate's page.
-        let normal = single([0.0, (1.0 - h * h).sqrt(), -h]);
+        // The side of positive h is that of -z where wo lies over +y: see the crate's page. On the ellipse
+        // the line of sight at the offset h of the half-width meets the point whose eccentric angle is E.
+        let phi_o = phi_o.to_radians();
+        let eccentric = (phi_o.sin() / aspect).atan2(phi_o.cos()) - h.asin();
+        let normal = single([0.0, eccentric.cos(), eccentric.sin() / aspect]).normalize();
         let mirrored = normal * (2.0 * wo.dot(normal)) - wo;
         let scatter = case.single();
         let at_mirror = scatter.evaluate(mirrored);
-        let aside = scatter.evaluate(single(direction(-0.61, case.phis()[0] + 0.02)));
-        assert!(at_mirror.0[0].x > 1e3 * aside.0[0].x.max(1.0), "h {h}: {at_mirror:?}");
+        let aside = scatter.evaluate(single(case.seen(-0.61, case.phis()[0] + 0.02)));
+        assert!(at_mirror.0[0].x > 1e3 * aside.0[0].x.max(1.0), "{case:?}: {at_mirror:?}");
     }
 }
 
