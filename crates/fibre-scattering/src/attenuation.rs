@@ -27,7 +27,6 @@ impl<T: Real> Chord<T> {
     ///
     /// Every root is of `eta^2 - 1` plus a square: written so, neither grazing light nor an index
     /// next to 1 cancels, and `eta' = sqrt(eta^2 - sin^2) / cos` is never divided by.
-    #[allow(dead_code)] // waits for fur
     pub fn new(eta2_minus_1: T, cos_theta: T, h: T) -> Self {
         Chord::reflecting(eta2_minus_1, cos_theta, h, |cos| fresnel(eta2_minus_1, cos))
     }
