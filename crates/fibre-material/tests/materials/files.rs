@@ -106,7 +106,7 @@ fn faults_have_their_file_line_key_value_and_range() {
             "beta_m: 0.9\nvariation: {roughness: 0.5}",
             "a.yaml:2:24: variation.roughness: is 0.5, which takes beta_m from 0.4500 to 1.3500",
         ),
-        ("color: [1, 1, 1]\nalong: {melanin: [[0, 1]]}", "along.melanin is there, expected melanin"),
+        ("color: [1, 1, 1]\nalong: {melanin: [[0, 1]]}", "a.yaml:2:18: along.melanin: is there, expected melanin as the colour"),
         ("along: {absorption: [[1, 1], [0, 2]]}", "a.yaml:1:21: along.absorption: ramp is `1:1,0:2`"),
         ("color_ramp: [[0, [2, 0, 0]]]", "a.yaml:1:13: color_ramp: "),
         ("nodes: 8", "a.yaml:1:8: nodes: needs `field: far` beside it"),
