@@ -73,6 +73,12 @@ impl<T: Real> TrimmedLogistic<T> {
         }
     }
 
+    /// The scales of R, TT and TRT.
+    pub fn scales(&self) -> [T; 3] {
+        let [r, tt, trt, _] = self.scales;
+        [r, tt, trt]
+    }
+
     /// Each lobe's density in the azimuth of the vector `[cos, sin]`, of any length, against that of `wo`. No
     /// exponent is positive: nothing overflows.
     #[inline(always)]

@@ -15,9 +15,9 @@ use crate::surface::Surface;
 /// What depends on the material alone.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Fibre<T> {
-    surface: Surface<T>,
+    pub surface: Surface<T>,
     /// `None` for a round fibre.
-    ellipse: Option<Ellipse>,
+    pub ellipse: Option<Ellipse>,
     pub sigma_a: [T; 3],
     lobe_weights: [T; 5],
     /// Sine and cosine of the tilt each lobe gives the outgoing inclination.
@@ -54,6 +54,21 @@ impl<T: Real> Fibre<T> {
                 around: TrimmedLogistic::new([first_around, around, around]),
             },
         }
+    }
+
+    /// Scales of the logistics of R, TT and TRT.
+    pub fn azimuthal_scales(&self) -> [T; 3] {
+        self.spread.around.scales()
+    }
+
+    /// Weights of all lobes but the medulla's.
+    pub fn four_weights(&self) -> [T; 4] {
+        four(|p| self.lobe_weights[p])
+    }
+
+    /// What lies along the fibre as seen from an inclination.
+    pub fn longitudinal(&self, theta_o: Inclination<T>) -> (Mirrors<T>, Longitudinal<T>) {
+        (Mirrors::new(theta_o, self.tilts), self.spread.along)
     }
 
     /// Prepares all that does not depend on `wi`.
@@ -154,7 +169,7 @@ fn probabilities<T: Real>(attenuations: &[[T; 3]; 4]) -> ([T; 4], T) {
 }
 
 /// The inclination of a unit direction and the cosine and sine of its azimuth.
-fn inclination_and_turn<T: Real>([along, y, z]: [T; 3]) -> (Inclination<T>, [T; 2]) {
+pub(crate) fn inclination_and_turn<T: Real>([along, y, z]: [T; 3]) -> (Inclination<T>, [T; 2]) {
     // From the part across the fibre and not from the sine, which knows little about it when the
     // direction grazes the fibre.
     let cos = (y * y + z * z).sqrt();

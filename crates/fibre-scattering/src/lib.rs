@@ -65,6 +65,7 @@ mod bessel;
 mod ellipse;
 mod error;
 mod exponential;
+mod far_cells;
 mod far_field;
 mod fibre;
 mod fibre_bcsdf;

@@ -5,7 +5,7 @@ mod support;
 use std::f64::consts::{FRAC_PI_2, PI};
 
 use fibre_scattering::{RoughnessScales, WaterFilm};
-use support::{Case, PLAIN, Random, WATER, edges, gauss, single, wrapped};
+use support::{Case, PLAIN, Random, WATER, deviate, edges, gauss, single, wrapped};
 
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
@@ -63,13 +63,6 @@ fn expected(case: &Case, along: &[f64], around: &[f64]) -> Vec<f64> {
 
 fn cell(edges: &[f64], x: f64) -> usize {
     edges.partition_point(|&edge| edge <= x).clamp(1, edges.len() - 1) - 1
-}
-
-/// The standard normal deviate that chi-square of so many degrees of freedom amounts to (Wilson and
-/// Hilferty).
-fn deviate(chi_square: f64, degrees: f64) -> f64 {
-    let spread = 2.0 / (9.0 * degrees);
-    ((chi_square / degrees).cbrt() - 1.0 + spread) / spread.sqrt()
 }
 
 #[test]

@@ -256,6 +256,13 @@ pub fn scattered(case: &Case, parts: u32, values: impl Fn(f64, f64) -> [f64; 4])
     })
 }
 
+/// The standard normal deviate that chi-square of so many degrees of freedom amounts to (Wilson and
+/// Hilferty).
+pub fn deviate(chi_square: f64, degrees: f64) -> f64 {
+    let spread = 2.0 / (9.0 * degrees);
+    ((chi_square / degrees).cbrt() - 1.0 + spread) / spread.sqrt()
+}
+
 /// Uniform numbers in [0, 1) by SplitMix64.
 pub struct Random(pub u64);
 
