@@ -1,6 +1,7 @@
 //! How much light each lobe carries: Fresnel's equations and Beer's law over the chord.
 
-use crate::real::Real;
+use crate::lanes::Lanes;
+use crate::real::{Real, four};
 use crate::surface::Surface;
 
 /// The fibre's cross-section as light from one direction meets it at one offset.
@@ -10,13 +11,9 @@ pub(crate) struct Chord<T> {
     pub fresnel: T,
     /// Length of one crossing of the fibre, in radii.
     pub length: T,
-    /// Angle of the ray against the normal outside, in the cross-section.
-    pub gamma_i: T,
-    /// The same inside.
-    pub gamma_t: T,
-    /// Sine and cosine of `gamma_i`.
+    /// Sine and cosine of `gamma_i`, the angle of the ray against the normal outside, in the cross-section.
     pub turn_i: (T, T),
-    /// Sine and cosine of `gamma_t`.
+    /// The same of `gamma_t`, inside.
     pub turn_t: (T, T),
     /// Length of a path inside over its length in the cross-section: `1 / cos(theta_t)`.
     pub stretch: T,
@@ -49,27 +46,37 @@ impl<T: Real> Chord<T> {
         Chord {
             fresnel: reflectance(cos_theta * cos2_gamma.sqrt()),
             length,
-            gamma_i: h.asin(),
-            gamma_t: sin_gamma_t.max(-T::ONE).min(T::ONE).asin(),
             turn_i: (h, cos2_gamma.sqrt()),
             turn_t: (sin_gamma_t, cos_gamma_t),
             stretch: eta2.sqrt() / bent,
         }
     }
 
-    /// A_0 .. A_3 where one crossing lets `exp(-depth)` pass; they sum to 1 when all passes.
+    /// `gamma_t - gamma_i`: by how much the surface bends the ray around the axis.
+    pub fn bend(&self) -> T {
+        let (outside, inside) = (self.turn_i.0, self.turn_t.0.max(-T::ONE).min(T::ONE));
+        inside.asin() - outside.asin()
+    }
+
+    /// A_0 .. A_3 of each channel, where one crossing lets `exp(-depth)` pass; they sum to 1 when all passes.
     ///
     /// The last is the whole geometric series that begins with two inner reflections.
-    pub fn attenuations_through(&self, depth: T) -> [T; 4] {
-        let pass = (-depth).exp();
+    #[inline(always)]
+    pub fn attenuations_through(&self, [red, green, blue]: [T; 3]) -> [[T; 3]; 4] {
+        let (pass, caught) = T::Four::from([red, green, blue, T::ZERO]).fall_and_rest();
         let reflected = self.fresnel;
         let entered = T::ONE - reflected;
-        let tt = entered * entered * pass;
-        let trt = tt * pass * reflected;
-        // 1 - F T as two positive parts: both vanish only where nothing enters.
-        let rest = entered - reflected * (-depth).exp_m1();
-        let residual = if rest > T::ZERO { trt * pass * reflected / rest } else { T::ZERO };
-        [reflected, tt, trt, residual]
+        let lanes = T::Four::splat;
+        let tt = pass * lanes(entered * entered);
+        let trt = tt * pass * lanes(reflected);
+        // 1 - F T as two positive parts: both vanish only where nothing enters, and TRT with them.
+        let rest: [T; 4] = caught.times_plus(lanes(reflected), lanes(entered)).into();
+        let rest = four(|channel| if rest[channel] > T::ZERO { rest[channel] } else { T::ONE });
+        let residual = trt * pass * lanes(reflected) / T::Four::from(rest);
+        [lanes(reflected), tt, trt, residual].map(|lobe| {
+            let [red, green, blue, _] = lobe.into();
+            [red, green, blue]
+        })
     }
 }
 

@@ -172,7 +172,7 @@ mod tests {
                 for place in 0..3 {
                     assert!((found.cos2[place] - cos * cos).abs() < 1e-13, "{found:?}");
                     let p = place as f64;
-                    let exit = 2.0 * p * chord.gamma_t - 2.0 * chord.gamma_i + p * PI;
+                    let exit = 2.0 * p * chord.turn_t.0.asin() - 2.0 * chord.turn_i.0.asin() + p * PI;
                     assert!(apart(azimuths(&found)[place], exit) < 1e-6, "{h} {exit} {found:?}");
                 }
                 assert!(found.lengths.iter().all(|length| (length - chord.length).abs() < 1e-13));

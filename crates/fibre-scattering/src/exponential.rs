@@ -19,7 +19,6 @@ pub(crate) fn exp_of_minus(x: Vec4) -> Vec4 {
 }
 
 /// `exp(-x)` and `1 - exp(-x)` of each `x >= 0`, both within 3e-7 of their own size.
-#[allow(dead_code)]
 #[inline(always)]
 pub(crate) fn fall_and_rest(x: Vec4) -> (Vec4, Vec4) {
     let Parts { power, tail } = parts(x);

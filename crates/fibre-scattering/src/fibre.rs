@@ -72,6 +72,7 @@ impl<T: Real> Fibre<T> {
     }
 
     /// Prepares all that does not depend on `wi`.
+    #[inline]
     pub fn at(&self, wo: [T; 3], h: T) -> Hit<T> {
         match self.ellipse {
             None => self.at_through(wo, h, |chord| self.sigma_a.map(|sigma_a| sigma_a * chord.length)).0,
@@ -90,7 +91,7 @@ impl<T: Real> Fibre<T> {
             attenuations_of_three(reflected, crossing.lengths.map(|length| sigma_a * T::of(length)))
         });
         let centres = Centres::of_turns(crossing.turns.map(|(cos, sin)| (T::of(cos), T::of(sin))));
-        self.hit(theta_o, turn_o, centres, [red, green, blue])
+        self.hit(theta_o, turn_o, centres, four(|p| [red[p], green[p], blue[p]]))
     }
 
     /// [`Fibre::at`] where the optical depth of one crossing, per channel, is `depths` and not that of a
@@ -104,24 +105,22 @@ impl<T: Real> Fibre<T> {
         let h = h.max(-T::ONE).min(T::ONE);
         let (theta_o, turn_o) = inclination_and_turn(wo);
         let chord = Chord::under(&self.surface, theta_o.cos.min(T::ONE), h);
-        let [red, green, blue] = depths(&chord);
-        let red = chord.attenuations_through(red);
-        let green = chord.attenuations_through(green);
-        let blue = chord.attenuations_through(blue);
-        (self.hit(theta_o, turn_o, Centres::round(&chord), [red, green, blue]), chord)
+        let attenuations = chord.attenuations_through(depths(&chord));
+        (self.hit(theta_o, turn_o, Centres::round(&chord), attenuations), chord)
     }
 
-    /// From where the lobes leave and what each carries, per channel.
+    /// From where the lobes leave and what each carries, per channel, before it is weighted.
     fn hit(
         &self,
         theta_o: Inclination<T>,
         turn_o: [T; 2],
         centres: Centres<T>,
-        [red, green, blue]: [[T; 4]; 3],
+        attenuations: [[T; 3]; 4],
     ) -> Hit<T> {
         let attenuations = four(|p| {
             let weight = self.lobe_weights[p];
-            [red[p] * weight, green[p] * weight, blue[p] * weight]
+            let [red, green, blue] = attenuations[p];
+            [red * weight, green * weight, blue * weight]
         });
         let (probabilities, most) = probabilities(&attenuations);
         Hit {

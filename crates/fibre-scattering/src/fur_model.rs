@@ -91,7 +91,7 @@ impl<T: Real> Fur<T> {
         let place = Place::new(h.abs() / widest, along.abs().atan2(cos_theta));
         let sign = |x: T| if x < T::ZERO { -T::ONE } else { T::ONE };
         // Phi_1, at most half a turn from pi either way; the table wants it below pi.
-        let centre = T::TWO * (chord.gamma_t - chord.gamma_i) + sign(h) * T::PI;
+        let centre = T::TWO * chord.bend() + sign(h) * T::PI;
         Scattered::new(table, &place, share, |row| passed(table, row), centre, [sign(h), sign(along)])
     }
 }

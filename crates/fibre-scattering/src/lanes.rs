@@ -24,7 +24,6 @@ pub(crate) trait Lanes<T>:
     fn times_plus(self, factor: Self, term: Self) -> Self;
     /// `exp(-self)` of values of at least 0.
     fn exp_of_minus(self) -> Self;
-    #[allow(dead_code)]
     /// `exp(-self)` and `1 - exp(-self)` of values of at least 0, both to their last digits.
     fn fall_and_rest(self) -> (Self, Self);
     /// `exp(-self) exp(-x) I0(x)`, both at least 0.

@@ -86,7 +86,7 @@ impl Walker {
         let reflected = f64::from(self.surface.reflectance((cos_theta * (1.0 - h * h).sqrt()) as f32));
         Entry {
             turn: (sin_t as f32, cos_t as f32),
-            bend: (chord.gamma_t - chord.gamma_i) as f32,
+            bend: chord.bend() as f32,
             theta: ((sin_theta / eta) as f32, (1.0 / chord.stretch) as f32),
             half: half as f32,
             cortex: (2.0 * (cos_t - half) * chord.stretch) as f32,

@@ -15,7 +15,6 @@ pub(crate) fn four<T>(value: impl Fn(usize) -> T) -> [T; 4] {
 }
 
 /// `f32` for rendering, `f64` to know how good that is.
-#[allow(dead_code)] // some of it is fur's
 pub(crate) trait Real:
     Copy
     + Debug

@@ -101,12 +101,18 @@ fn faults_have_their_file_line_key_value_and_range() {
         ("variation: {white: 1.5}", "a.yaml:1:20: variation.white: is 1.5, expected 0..1"),
         ("variation: {hue: 200}", "a.yaml:1:18: variation.hue: is 200, expected 0..180 degrees"),
         ("variation: {white_melanin: 0.1}", "add `white: 0.1`"),
-        ("melanin: 1\nvariation: {hue: 20}", "a.yaml:2:18: variation.hue: is 20, expected 0: it is for color"),
+        (
+            "melanin: 1\nvariation: {hue: 20}",
+            "a.yaml:2:18: variation.hue: is 20, expected 0: it is for color",
+        ),
         (
             "beta_m: 0.9\nvariation: {roughness: 0.5}",
             "a.yaml:2:24: variation.roughness: is 0.5, which takes beta_m from 0.4500 to 1.3500",
         ),
-        ("color: [1, 1, 1]\nalong: {melanin: [[0, 1]]}", "a.yaml:2:18: along.melanin: is there, expected melanin as the colour"),
+        (
+            "color: [1, 1, 1]\nalong: {melanin: [[0, 1]]}",
+            "a.yaml:2:18: along.melanin: is there, expected melanin as the colour",
+        ),
         ("along: {absorption: [[1, 1], [0, 2]]}", "a.yaml:1:21: along.absorption: ramp is `1:1,0:2`"),
         ("color_ramp: [[0, [2, 0, 0]]]", "a.yaml:1:13: color_ramp: "),
         ("nodes: 8", "a.yaml:1:8: nodes: needs `field: far` beside it"),

@@ -13,15 +13,17 @@ pub fn spread(index: u32) -> (Vec3, f32, [f32; 4]) {
     (Vec3::new(sin, cos * y, cos * z), 2.0 * u[2] - 1.0, u)
 }
 
-/// 256 of them, gone round; a hit is paired with another's direction.
+const COUNT: usize = 256;
+
+/// As many as that, gone round; a hit is paired with another's direction.
 pub struct Inputs {
-    all: Vec<(Vec3, f32, [f32; 4])>,
+    all: [(Vec3, f32, [f32; 4]); COUNT],
     next: usize,
 }
 
 impl Inputs {
     pub fn new() -> Inputs {
-        Inputs { all: (0..256).map(spread).collect(), next: 0 }
+        Inputs { all: std::array::from_fn(|index| spread(index as u32)), next: 0 }
     }
 
     /// The fibre's state at each input's direction and offset.
@@ -30,9 +32,10 @@ impl Inputs {
     }
 
     /// The next input, and the number of the hit it goes with.
+    #[inline(always)]
     pub fn next(&mut self) -> (Vec3, f32, [f32; 4], usize) {
-        self.next = (self.next + 1) % self.all.len();
+        self.next = (self.next + 1) % COUNT;
         let (direction, h, u) = self.all[self.next];
-        (direction, h, u, (self.next * 7 + 3) % self.all.len())
+        (direction, h, u, (self.next * 7 + 3) % COUNT)
     }
 }

@@ -6,90 +6,75 @@
 
 mod errors;
 mod inputs;
+mod measure;
 mod paper;
 
-use std::hint::black_box;
-use std::time::Duration;
+use std::sync::Arc;
 
-use criterion::Criterion;
-use fibre_scattering::{HairBcsdf, HairParameters, ScatteringError};
+use fibre_scattering::{
+    Absorption, FurBcsdf, FurParameters, HairBcsdf, HairParameters, Medulla, MedullaKey, MedullaTable,
+    ScatteringError,
+};
 use glam::Vec3;
-use inputs::Inputs;
-use paper::PaperHair;
+use measure::{Measures, Operations};
+use paper::{PaperHair, PaperHit};
+
+const BROWN: Vec3 = Vec3::new(0.1, 0.4, 1.2);
 
 fn main() -> Result<(), ScatteringError> {
-    let mut criterion = Criterion::default()
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_millis(1000))
-        .without_plots()
-        .configure_from_args();
-    for (name, parameters) in materials() {
-        hair(&mut criterion, name, &parameters)?;
-        papers(&mut criterion, name, &parameters);
+    let mut measures = Measures::new();
+    let of =
+        |beta, sigma_a| HairParameters { beta_m: beta, beta_n: beta, sigma_a, ..HairParameters::default() };
+    let materials =
+        [("white", of(0.3, Vec3::ZERO)), ("coloured", of(0.3, BROWN)), ("smooth", of(0.03, BROWN))];
+    for (name, parameters) in materials {
+        let hair = HairBcsdf::new(&parameters)?;
+        measures.take(
+            &format!("{name} hair"),
+            Operations {
+                at: |wo, h| hair.at(wo, h),
+                evaluate: fibre_scattering::HairScatter::evaluate_with_pdf,
+                pdf: fibre_scattering::HairScatter::pdf,
+                sample: fibre_scattering::HairScatter::sample,
+            },
+        );
+        let paper = PaperHair::new(&parameters);
+        measures.take(
+            &format!("{name} hair, the papers' formula"),
+            Operations {
+                at: |wo, h| paper.at(wo, h),
+                evaluate: PaperHit::evaluate_with_pdf,
+                pdf: PaperHit::pdf,
+                sample: PaperHit::sample,
+            },
+        );
+        let parameters = FurParameters { hair: parameters, medulla: medulla(&parameters) };
+        fur(&mut measures, name, &parameters)?;
     }
-    criterion.final_summary();
+    measures.summary();
     errors::print()
 }
 
-fn materials() -> [(&'static str, HairParameters); 3] {
-    let of =
-        |beta, sigma_a| HairParameters { beta_m: beta, beta_n: beta, sigma_a, ..HairParameters::default() };
-    let brown = Vec3::new(0.1, 0.4, 1.2);
-    [("white", of(0.3, Vec3::ZERO)), ("coloured", of(0.3, brown)), ("smooth", of(0.03, brown))]
+/// The first of the two published sets, as black as its hair is brown.
+fn medulla(hair: &HairParameters) -> Medulla {
+    Medulla { kappa: 0.86, sigma_s: 3.15, sigma_a: 0.5 * hair.sigma_a, g: 0.79 }
 }
 
-fn hair(criterion: &mut Criterion, name: &str, parameters: &HairParameters) -> Result<(), ScatteringError> {
-    let bcsdf = HairBcsdf::new(parameters)?;
-    let mut inputs = Inputs::new();
-    let hits = inputs.hits(|wo, h| bcsdf.at(wo, h));
-    let mut bench = |operation: &str, call: &mut dyn FnMut(&mut Inputs)| {
-        criterion
-            .benchmark_group(operation)
-            .bench_function(name, |bencher| bencher.iter(|| call(&mut inputs)));
-    };
-    bench("at", &mut |inputs| {
-        let (wo, h, ..) = inputs.next();
-        black_box(bcsdf.at(black_box(wo), black_box(h)));
-    });
-    bench("evaluate_with_pdf", &mut |inputs| {
-        let (wi, _, _, hit) = inputs.next();
-        black_box(hits[hit].evaluate_with_pdf(black_box(wi)));
-    });
-    bench("pdf", &mut |inputs| {
-        let (wi, _, _, hit) = inputs.next();
-        black_box(hits[hit].pdf(black_box(wi)));
-    });
-    bench("sample", &mut |inputs| {
-        let (_, _, u, hit) = inputs.next();
-        black_box(hits[hit].sample(black_box(u)));
-    });
+fn fur(measures: &mut Measures, name: &str, parameters: &FurParameters) -> Result<(), ScatteringError> {
+    let key = MedullaKey::needed(parameters).map(|key| MedullaKey { walks: 500, ..key });
+    let table = key.map(|key| MedullaTable::build(&key)).transpose()?.map(Arc::new);
+    let fur = FurBcsdf::new(parameters, table)?;
+    let own = Absorption::new(parameters.hair.sigma_a, parameters.medulla.sigma_a)?;
+    measures.take(
+        &format!("{name} fur"),
+        Operations {
+            at: |wo, h| fur.at(wo, h, own),
+            evaluate: fibre_scattering::FurScatter::evaluate_with_pdf,
+            pdf: fibre_scattering::FurScatter::pdf,
+            sample: fibre_scattering::FurScatter::sample,
+        },
+    );
+    let strand = Absorption::new(0.9 * BROWN, 0.4 * BROWN)?;
+    measures.at(&format!("{name} fur, colour of the strand"), |wo, h| fur.at(wo, h, strand));
     Ok(())
-}
-
-fn papers(criterion: &mut Criterion, name: &str, parameters: &HairParameters) {
-    let paper = PaperHair::new(parameters);
-    let mut inputs = Inputs::new();
-    let hits = inputs.hits(|wo, h| paper.at(wo, h));
-    let name = format!("{name}, the papers' formula");
-    let mut bench = |operation: &str, call: &mut dyn FnMut(&mut Inputs)| {
-        criterion
-            .benchmark_group(operation)
-            .bench_function(&name, |bencher| bencher.iter(|| call(&mut inputs)));
-    };
-    bench("at", &mut |inputs| {
-        let (wo, h, ..) = inputs.next();
-        black_box(paper.at(black_box(wo), black_box(h)));
-    });
-    bench("evaluate_with_pdf", &mut |inputs| {
-        let (wi, _, _, hit) = inputs.next();
-        black_box(hits[hit].evaluate_with_pdf(black_box(wi)));
-    });
-    bench("pdf", &mut |inputs| {
-        let (wi, _, _, hit) = inputs.next();
-        black_box(hits[hit].pdf(black_box(wi)));
-    });
-    bench("sample", &mut |inputs| {
-        let (_, _, u, hit) = inputs.next();
-        black_box(hits[hit].sample(black_box(u)));
-    });
 }
