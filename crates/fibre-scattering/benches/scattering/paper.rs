@@ -5,7 +5,7 @@
 //! 12 on, as in pbrt, Cycles, Mitsuba and MaterialX. What depends on the camera's direction alone is worked out
 //! once, as in the model it is measured against. It has this crate's sign of the tilt.
 
-use std::f32::consts::{PI, TAU};
+use std::f32::consts::{LN_2, PI, TAU};
 
 use fibre_scattering::HairParameters;
 use glam::Vec3;
@@ -157,7 +157,7 @@ fn longitudinal(cos_theta_i: f32, cos_theta_o: f32, sin_theta_i: f32, sin_theta_
     let a = cos_theta_i * cos_theta_o / v;
     let b = sin_theta_i * sin_theta_o / v;
     if v <= 0.1 {
-        (log_i0(a) - b - 1.0 / v + 0.6931 + (1.0 / (2.0 * v)).ln()).exp()
+        (log_i0(a) - b - 1.0 / v + LN_2 + (1.0 / (2.0 * v)).ln()).exp()
     } else {
         (-b).exp() * i0(a) / ((1.0 / v).sinh() * 2.0 * v)
     }
