@@ -100,14 +100,15 @@ fn round(places: &Places, fibre: &Fibre<f32>, cos_theta: f32) -> Vec<Cell> {
         spans.zip(&places.middles).zip(&places.weights).take(half)
     {
         let chord = Chord::under(&fibre.surface, cos_theta, h);
-        let depths = Vec4::new(fibre.sigma_a[0], fibre.sigma_a[1], fibre.sigma_a[2], 0.0) * chord.length;
+        let lobes = chord.attenuations_through(fibre.sigma_a.map(|sigma| sigma * chord.length));
+        let channel = |c: usize| Vec4::new(lobes[0][c], lobes[1][c], lobes[2][c], lobes[3][c]);
         let exit = |p: f32, start: f32| wrapped(p * (inner_0 + inner_1) - (gamma_0 + gamma_1) + start);
         let reach = |p: f32| (p * (inner_1 - inner_0) - (gamma_1 - gamma_0)).abs();
         cells.push(fibre.cell(
             &Section {
                 centre: [exit(0.0, 0.0), exit(1.0, PI32), exit(2.0, 0.0)],
                 half: [reach(0.0), reach(1.0), reach(2.0)],
-                channels: channels(depths, |depth| chord.attenuations_through(depth)),
+                channels: [channel(0), channel(1), channel(2)],
             },
             weight,
         ));
