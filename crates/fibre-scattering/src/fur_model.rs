@@ -50,6 +50,11 @@ impl<T: Real> Fur<T> {
         [cortex, medulla]: [[T; 3]; 2],
         passed: impl Fn(&MedullaTable, usize) -> Passed<T>,
     ) -> FurHit<'_, T> {
+        if self.kappa <= T::ZERO {
+            let mut hair = self.fibre;
+            hair.sigma_a = cortex;
+            return FurHit::new(hair.at(wo, h), None);
+        }
         let mut depth = T::ZERO;
         let (hair, chord) = self.fibre.at_through(wo, h, |chord| {
             let half = self.half_of_medulla(chord);
@@ -57,11 +62,7 @@ impl<T: Real> Fur<T> {
             depth = self.sigma_s * in_medulla;
             let in_cortex = if half > T::ZERO { chord.length - in_medulla } else { chord.length };
             let of = |channel: usize| cortex[channel] * in_cortex + medulla[channel] * in_medulla + depth;
-            if self.kappa > T::ZERO {
-                [of(0), of(1), of(2)]
-            } else {
-                cortex.map(|sigma| sigma * chord.length)
-            }
+            [of(0), of(1), of(2)]
         });
         let share = self.weight * scattered_share(chord.fresnel, depth);
         let scattered = match self.table.as_deref() {

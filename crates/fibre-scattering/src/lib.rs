@@ -94,7 +94,6 @@ mod reference;
 mod sample;
 mod sine;
 mod surface;
-mod surface_of_key;
 
 pub use absorption::{
     Pigments, absorption_from_color, absorption_from_melanin, absorption_from_pigments, color_from_absorption,

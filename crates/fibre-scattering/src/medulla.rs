@@ -59,7 +59,7 @@ pub struct FurParameters {
 }
 
 impl FurParameters {
-    /// Checks every bound of both.
+    /// Checks every bound of both. Around a medulla a fibre is round: `aspect` is then 1.
     ///
     /// # Errors
     /// The first bound broken.

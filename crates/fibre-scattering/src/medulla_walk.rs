@@ -13,7 +13,7 @@ use std::f64::consts::PI;
 use crate::attenuation::Chord;
 use crate::medulla_grid::{ray_of_row, widest_offset};
 use crate::medulla_table::MedullaKey;
-use crate::surface_of_key::InnerSurface;
+use crate::surface::Surface;
 
 /// Where and how a walk ended outside the fibre.
 #[derive(Debug, Clone, Copy)]
@@ -37,10 +37,11 @@ const SHORTEST: f32 = 1e-7;
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Walker {
     kappa: f32,
-    sigma_s: f32,
+    /// `1 / sigma_s`
+    mean_free_path: f32,
     g: f32,
     eta: f32,
-    surface: InnerSurface,
+    surface: Surface<f32>,
 }
 
 /// A ray that has entered the fibre and will be scattered.
@@ -66,8 +67,9 @@ pub(crate) struct Entry {
 impl Walker {
     /// `key` has passed its check.
     pub fn new(key: &MedullaKey) -> Self {
-        let (kappa, sigma_s, g) = (key.kappa, key.sigma_s, key.g);
-        Walker { kappa, sigma_s, g, eta: key.eta, surface: InnerSurface::new(key) }
+        let mean_free_path = 1.0 / key.sigma_s;
+        let surface = Surface::new(&key.parameters().hair);
+        Walker { kappa: key.kappa, mean_free_path, g: key.g, eta: key.eta, surface }
     }
 
     /// The ray a row stands for.
@@ -82,7 +84,7 @@ impl Walker {
         let (sin_t, cos_t) = chord.turn_t;
         let half = ((kappa - sin_t) * (kappa + sin_t)).max(0.0).sqrt();
         let medulla = 2.0 * half * chord.stretch;
-        let depth = f64::from(self.sigma_s) * medulla;
+        let depth = medulla / f64::from(self.mean_free_path);
         let reflected = f64::from(self.surface.reflectance((cos_theta * (1.0 - h * h).sqrt()) as f32));
         Entry {
             turn: (sin_t as f32, cos_t as f32),
@@ -113,7 +115,7 @@ impl Walker {
     /// Where a ray that is scattered at all is scattered first.
     fn enter(&self, entry: &Entry, u: f32, numbers: &mut Numbers) -> Photon {
         let missed = (numbers.next_open().ln() / entry.ln_again).floor();
-        let along = (-(-u * entry.caught).ln_1p() / self.sigma_s).min(entry.medulla);
+        let along = (-(-u * entry.caught).ln_1p() * self.mean_free_path).min(entry.medulla);
         let mut photon = Photon {
             at: [0.0; 2],
             way: [-entry.theta.0, entry.theta.1, 0.0],
@@ -129,23 +131,23 @@ impl Walker {
     fn cross_medulla(&self, photon: &mut Photon, numbers: &mut Numbers) {
         let kappa2 = self.kappa * self.kappa;
         loop {
-            let free = -numbers.next_open().ln() / self.sigma_s;
+            let free = self.free_path(numbers);
             let [_, y, z] = photon.way;
             let [at_y, at_z] = photon.at;
-            let across2 = (y * y + z * z).max(1e-12);
-            let outward = at_y * y + at_z * z;
-            let inside = (kappa2 - at_y * at_y - at_z * at_z).max(0.0);
-            let root = (outward * outward + across2 * inside).sqrt();
-            // Whichever of the two forms does not cancel.
-            let boundary = if outward > 0.0 { inside / (outward + root) } else { (root - outward) / across2 };
-            if free >= boundary {
-                photon.medulla += boundary;
+            let (there_y, there_z) = (at_y + y * free, at_z + z * free);
+            // A way between two points inside is inside: no need to know how far the boundary is.
+            if there_y * there_y + there_z * there_z >= kappa2 {
+                photon.medulla += boundary(kappa2, [at_y, at_z], [y, z]).min(free);
                 return;
             }
             photon.medulla += free;
-            photon.at = [at_y + y * free, at_z + z * free];
+            photon.at = [there_y, there_z];
             photon.turn_aside(self.g, numbers.next(), numbers.turn());
         }
+    }
+
+    fn free_path(&self, numbers: &mut Numbers) -> f32 {
+        -numbers.next_open().ln() * self.mean_free_path
     }
 
     /// From the medulla's boundary out of the fibre, or back to the next scattering.
@@ -157,7 +159,9 @@ impl Walker {
         let half = ((self.kappa - offset) * (self.kappa + offset)).sqrt();
         let cortex = (turn.1 - half) / across;
         let medulla = (2.0 * half / across).max(SHORTEST);
-        let reflected = self.surface.reflectance_inside(across * turn.1);
+        let inside = across * turn.1;
+        let eta2 = self.eta * self.eta;
+        let reflected = self.surface.reflectance_of_leaving(1.0 - eta2 * (1.0 - inside) * (1.0 + inside));
         loop {
             photon.cortex += cortex;
             if reflected < 1.0 && numbers.next() >= reflected {
@@ -165,7 +169,7 @@ impl Walker {
             }
             photon.cortex += cortex;
             photon.turn_times(1.0, turn);
-            let mut free = -numbers.next_open().ln() / self.sigma_s;
+            let mut free = self.free_path(numbers);
             if reflected >= 1.0 {
                 // Nothing but scattering ends this: all crossings before it at once.
                 let missed = (free / medulla).floor();
@@ -191,6 +195,16 @@ impl Walker {
         let azimuth = photon.way[2].atan2(photon.way[1]) + offset.asin() - outside.asin() - entry.bend;
         Exit { azimuth, sin_theta, cortex: photon.cortex.min(LONGEST), medulla: photon.medulla.min(LONGEST) }
     }
+}
+
+/// How far the circle of that squared radius is from a point inside it.
+fn boundary(radius2: f32, [at_y, at_z]: [f32; 2], [y, z]: [f32; 2]) -> f32 {
+    let across2 = (y * y + z * z).max(1e-12);
+    let outward = at_y * y + at_z * z;
+    let inside = (radius2 - at_y * at_y - at_z * at_z).max(0.0);
+    let root = (outward * outward + across2 * inside).sqrt();
+    // Whichever of the two forms does not cancel.
+    if outward > 0.0 { inside / (outward + root) } else { (root - outward) / across2 }
 }
 
 /// Light on its way.
@@ -253,8 +267,9 @@ impl Photon {
             s * sign * q + t * (sign + y * y * p) + cos * y,
             -s * sign * x - t * y + cos * z,
         ];
-        let length = (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]).sqrt();
-        self.way = way.map(|part| part / length);
+        // One step of Newton's towards unit length, which rounding has hardly left.
+        let mend = 1.5 - 0.5 * (way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+        self.way = way.map(|part| part * mend);
     }
 }
 
@@ -302,7 +317,8 @@ impl Numbers {
             let (x, y) = (part(bits >> 40), part(bits >> 8));
             let square = x * x + y * y;
             if square <= 1.0 && square > 1e-9 {
-                return ((x * x - y * y) / square, 2.0 * x * y / square);
+                let scale = 1.0 / square;
+                return ((x * x - y * y) * scale, 2.0 * x * y * scale);
             }
         }
     }
