@@ -94,6 +94,8 @@ mod reference;
 mod sample;
 mod sine;
 mod surface;
+mod yan;
+mod yan_medulla;
 
 pub use absorption::{
     Pigments, absorption_from_color, absorption_from_melanin, absorption_from_pigments, color_from_absorption,
@@ -116,3 +118,4 @@ pub use parametrisation::{
 pub use per_strand::Absorption;
 pub use reference::{ReferenceBcsdf, ReferenceScatter};
 pub use sample::FibreSample;
+pub use yan::{YanBcsdf, YanForm, YanPath, YanScatter};

@@ -52,7 +52,7 @@ impl MedullaKey {
 
 impl MedullaTable {
     /// Changes with the format and with how walks are traced: tables of another version are made anew.
-    pub const VERSION: u32 = 1;
+    pub const VERSION: u32 = 2;
 
     /// The table as bytes.
     #[must_use]

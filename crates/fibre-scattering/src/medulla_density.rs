@@ -1,6 +1,6 @@
 //! From counts of walks to a density with less noise.
 
-use crate::medulla_grid::{ALONG, AROUND, CELLS, width_along};
+use crate::medulla_grid::{ALONG, AROUND, CELLS, matt};
 
 /// Mass of each entry, lines along the fibre one after the other.
 pub(crate) type Density = Vec<f32>;
@@ -13,17 +13,18 @@ pub(crate) fn smoothed(cells: impl Iterator<Item = usize>, symmetric: [bool; 2])
         halves[walk % 2][cell] += 1.0;
     }
     let mut halves = halves.map(|half| mirrored(half, symmetric));
+    let matt = matt();
     let counted = halves.clone();
-    let mut error = prediction_error(&halves, &counted);
+    let mut error = prediction_error(&halves, &counted, &matt);
     let (mut around, mut along) = (STRIDES_AROUND.as_slice(), STRIDES_ALONG.as_slice());
     loop {
         let tried = [
             around.first().map(|&stride| halves.each_ref().map(|half| smoothed_around(half, stride))),
-            along.first().map(|&stride| halves.each_ref().map(|half| smoothed_along(half, stride))),
+            along.first().map(|&stride| halves.each_ref().map(|half| smoothed_along(half, stride, &matt))),
         ];
-        let errors = tried
-            .each_ref()
-            .map(|tried| tried.as_ref().map_or(f64::INFINITY, |halves| prediction_error(halves, &counted)));
+        let errors = tried.each_ref().map(|tried| {
+            tried.as_ref().map_or(f64::INFINITY, |halves| prediction_error(halves, &counted, &matt))
+        });
         if errors[0].min(errors[1]) >= error {
             break;
         }
@@ -48,12 +49,13 @@ const STRIDES_ALONG: [usize; 7] = [1, 1, 1, 2, 2, 4, 4];
 
 /// How far each smoothed half is from the other as counted: the square of the smoothed one's error, but for
 /// a constant.
-fn prediction_error(smoothed: &[Density; 2], counted: &[Density; 2]) -> f64 {
+fn prediction_error(smoothed: &[Density; 2], counted: &[Density; 2], matt: &[f64; ALONG]) -> f64 {
     let mut sum = 0.0;
     for half in 0..2 {
-        for (cell, (a, b)) in smoothed[half].iter().zip(&counted[1 - half]).enumerate() {
-            let difference = f64::from(a - b) / width_along(cell / AROUND);
-            sum += difference * difference * width_along(cell / AROUND);
+        let lines = smoothed[half].chunks(AROUND).zip(counted[1 - half].chunks(AROUND));
+        for ((smoothed, counted), matt) in lines.zip(matt) {
+            let squares = smoothed.iter().zip(counted).map(|(a, b)| f64::from((a - b) * (a - b)));
+            sum += squares.sum::<f64>() / matt;
         }
     }
     sum
@@ -85,13 +87,14 @@ fn smoothed_around(masses: &Density, stride: usize) -> Density {
     result
 }
 
-/// Entries along the fibre even out a quarter of their difference; nothing is lost at the ends.
-fn smoothed_along(masses: &Density, stride: usize) -> Density {
+/// Entries along the fibre even out up to a quarter of their difference from a matt surface's; nothing
+/// is lost at the ends, and what light grazes the fibre stays as little as it is.
+fn smoothed_along(masses: &Density, stride: usize, matt: &[f64; ALONG]) -> Density {
     let mut result = masses.clone();
     let ahead = stride * AROUND;
     for cell in 0..CELLS - ahead {
-        let [here, there] = [cell, cell + ahead].map(|cell| masses[cell] / width_along(cell / AROUND) as f32);
-        let flow = 0.25 * (there - here);
+        let [here, there] = [cell, cell + ahead].map(|cell| matt[cell / AROUND] as f32);
+        let flow = 0.25 * here.min(there) * (masses[cell + ahead] / there - masses[cell] / here);
         result[cell] += flow;
         result[cell + ahead] -= flow;
     }

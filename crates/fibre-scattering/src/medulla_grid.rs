@@ -74,17 +74,80 @@ pub(crate) const ALONG: usize = 16;
 pub(crate) const CELLS: usize = AROUND * ALONG;
 /// Distance of knots around the fibre, in radians.
 pub(crate) const STEP_AROUND: f64 = 2.0 * PI / AROUND as f64;
-/// Distance of knots along the fibre, in sines.
-pub(crate) const STEP_ALONG: f64 = 2.0 / (ALONG - 1) as f64;
+/// Sines of the knots along the fibre: denser where light grazes it and less leaves, step by step, than at
+/// right angles. [`knot_below`] knows their law.
+pub(crate) const KNOTS: [f64; ALONG] = [
+    -1.0,
+    -0.961393753,
+    -0.871350170,
+    -0.750000000,
+    -0.607005622,
+    -0.447892442,
+    -0.276171589,
+    -0.094238899,
+    0.094238899,
+    0.276171589,
+    0.447892442,
+    0.607005622,
+    0.750000000,
+    0.871350170,
+    0.961393753,
+    1.0,
+];
 
-/// How much of [`STEP_ALONG`] belongs to a knot: half of it at both ends.
-pub(crate) fn width_along(knot: usize) -> f64 {
-    if knot == 0 || knot == ALONG - 1 { 0.5 } else { 1.0 }
+/// The part of the knots' law that is even in sines.
+const EVEN: f64 = 0.4;
+
+/// The knot at or below a sine, never the last; but for rounding next to a knot.
+///
+/// Knots lie at even steps of `a s + (1 - a)(1 - sqrt(1 - |s|))`, which needs no arc sine.
+#[inline(always)]
+pub(crate) fn knot_below<T: Real>(sin: T) -> usize {
+    let from_middle = sin.abs().min(T::ONE);
+    let steps = T::of(EVEN) * from_middle + T::of(1.0 - EVEN) * (T::ONE - (T::ONE - from_middle).sqrt());
+    let steps = if sin < T::ZERO { -steps } else { steps };
+    (T::of(0.5 * (ALONG - 1) as f64) * (steps + T::ONE)).max(T::ZERO).whole().min(ALONG - 2)
+}
+
+/// Distances from a knot to its neighbours; 0 where there is none.
+pub(crate) const fn reach(knot: usize) -> (f64, f64) {
+    let below = if knot == 0 { 0.0 } else { KNOTS[knot] - KNOTS[knot - 1] };
+    let above = if knot + 1 == ALONG { 0.0 } else { KNOTS[knot + 1] - KNOTS[knot] };
+    (below, above)
+}
+
+/// The knot next to a sine.
+pub(crate) fn nearest_knot(sin: f64) -> usize {
+    let below = KNOTS.partition_point(|&knot| knot <= sin).clamp(1, ALONG - 1) - 1;
+    if sin - KNOTS[below] < KNOTS[below + 1] - sin { below } else { below + 1 }
+}
+
+/// The part of light from a matt surface, `sqrt(1 - s^2)`, that is next to each knot.
+pub(crate) fn matt() -> [f64; ALONG] {
+    // The integral of twice the root, from -1.
+    let below = |s: f64| s * ((1.0 - s) * (1.0 + s)).sqrt() + s.asin() + FRAC_PI_2;
+    std::array::from_fn(|knot| {
+        let (to_last, to_next) = reach(knot);
+        (below(KNOTS[knot] + 0.5 * to_next) - below(KNOTS[knot] - 0.5 * to_last)) / PI
+    })
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn knots_are_found_where_they_are() {
+        for (knot, sines) in KNOTS.windows(2).enumerate() {
+            for part in [0.001, 0.499, 0.501, 0.999] {
+                let sin = sines[0] + part * (sines[1] - sines[0]);
+                assert_eq!((knot_below(sin), knot_below(sin as f32)), (knot, knot));
+                assert_eq!(nearest_knot(sin), if part < 0.5 { knot } else { knot + 1 });
+            }
+        }
+        assert_eq!((knot_below(-1.0), knot_below(1.0), knot_below(1.1_f32)), (0, ALONG - 2, ALONG - 2));
+        assert!((matt().iter().sum::<f64>() - 1.0).abs() < 1e-12);
+    }
 
     #[test]
     fn rows_are_found_where_they_are() {

@@ -1,7 +1,7 @@
 //! One row of a medulla's table: what became of the walks of one ray.
 
 use crate::medulla_density::{Density, smoothed};
-use crate::medulla_grid::{AROUND, CELLS, STEP_ALONG, STEP_AROUND, ray_of_row};
+use crate::medulla_grid::{AROUND, CELLS, STEP_AROUND, nearest_knot, ray_of_row};
 use crate::medulla_paths::{NODES, PathNode, path_nodes};
 use crate::medulla_table::MedullaKey;
 use crate::medulla_walk::{Exit, Numbers, Walker};
@@ -78,8 +78,7 @@ fn length(exit: &Exit) -> f32 {
 /// The entry whose knot is next to an exit.
 fn cell(exit: &Exit) -> usize {
     let around = (f64::from(exit.azimuth) / STEP_AROUND).round().rem_euclid(AROUND as f64) as usize;
-    let along = ((f64::from(exit.sin_theta) + 1.0) / STEP_ALONG).round() as usize;
-    (along * AROUND + around % AROUND).min(CELLS - 1)
+    nearest_knot(f64::from(exit.sin_theta)) * AROUND + around % AROUND
 }
 
 /// A slice cut into parts of these shares.

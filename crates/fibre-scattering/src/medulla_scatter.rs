@@ -1,7 +1,7 @@
 //! Light scattered by the medulla, at one hit: a mixture of the densities of four rows and their classes.
 
 use crate::longitudinal::Inclination;
-use crate::medulla_grid::{ALONG, AROUND, CELLS, Place, STEP_ALONG, STEP_AROUND};
+use crate::medulla_grid::{ALONG, AROUND, CELLS, KNOTS, Place, STEP_AROUND, knot_below, reach};
 use crate::medulla_paths::{NODES, PathNode};
 use crate::medulla_row::{CLASS_SHARES, CLASSES};
 use crate::medulla_table::MedullaTable;
@@ -49,6 +49,37 @@ pub(crate) struct Scattered<'a, T> {
     centre: T,
     /// -1 where the ray is the mirror image, around the fibre and along it, of the one the rows stand for.
     mirrors: [T; 2],
+}
+
+/// What lies between two knots along the fibre.
+struct Span {
+    /// Sine of the lower knot.
+    below: f64,
+    /// One over the distance of the knots.
+    inverse_step: f64,
+    /// Density under the tent of either knot of one count of 65536.
+    heights: [f64; 2],
+}
+
+const SPANS: [Span; ALONG - 1] = {
+    const NONE: Span = Span { below: 0.0, inverse_step: 0.0, heights: [0.0; 2] };
+    let mut spans = [NONE; ALONG - 1];
+    let mut line = 0;
+    while line < ALONG - 1 {
+        spans[line] = Span {
+            below: KNOTS[line],
+            inverse_step: 1.0 / (KNOTS[line + 1] - KNOTS[line]),
+            heights: [height(line), height(line + 1)],
+        };
+        line += 1;
+    }
+    spans
+};
+
+/// One over the volume of the tent over a knot, of 65536.
+const fn height(line: usize) -> f64 {
+    let (below, above) = reach(line);
+    1.0 / (65536.0 * STEP_AROUND * 0.5 * (below + above))
 }
 
 /// Where a direction lies between the knots.
@@ -115,13 +146,11 @@ impl<'a, T: Real> Scattered<'a, T> {
         let around = turn * T::of(1.0 / STEP_AROUND);
         let column = around.whole();
         let right = around - T::of(column as f64);
-        let along = (mirror_along * sin_theta_i + T::ONE) * T::of(1.0 / STEP_ALONG);
-        let line = along.max(T::ZERO).whole().min(ALONG - 2);
-        let above = (along - T::of(line as f64)).max(T::ZERO).min(T::ONE);
-        // A count of the 65536 is so much density under its tent; at the ends it is half a tent.
-        let unit = 1.0 / (65536.0 * STEP_AROUND * STEP_ALONG);
-        let height = |line: usize| T::of(if line == 0 || line == ALONG - 1 { 2.0 * unit } else { unit });
-        let (low, high) = ((T::ONE - above) * height(line), above * height(line + 1));
+        let sin = mirror_along * sin_theta_i;
+        let line = knot_below(sin);
+        let Span { below, inverse_step, heights } = &SPANS[line];
+        let above = ((sin - T::of(*below)) * T::of(*inverse_step)).max(T::ZERO).min(T::ONE);
+        let (low, high) = ((T::ONE - above) * T::of(heights[0]), above * T::of(heights[1]));
         let (column, next) = (column % AROUND, (column + 1) % AROUND);
         let first = line * AROUND;
         Knots {
@@ -154,13 +183,8 @@ impl<'a, T: Real> Scattered<'a, T> {
         let (corner, class) = self.chosen(u[0] * self.chance);
         let entry = self.entry(self.rows[corner], class, (u[1] * T::of(65536.0)).whole().min(65535));
         let line = entry / AROUND;
-        let along = match line {
-            0 => half_tent(u[2]),
-            line if line == ALONG - 1 => -half_tent(u[2]),
-            _ => tent(u[2]),
-        };
         let [mirror_around, mirror_along] = self.mirrors;
-        let sin = (T::of(line as f64) + along) * T::of(STEP_ALONG) - T::ONE;
+        let sin = T::of(KNOTS[line]) + slanted_tent(u[2], reach(line));
         let sin = mirror_along * sin.max(-T::ONE).min(T::ONE);
         let cos = ((T::ONE - sin) * (T::ONE + sin)).sqrt();
         let turn = (T::of((entry % AROUND) as f64) + tent(u[3])) * T::of(STEP_AROUND);
@@ -197,7 +221,14 @@ fn tent<T: Real>(u: T) -> T {
     if u < T::ONE { u.sqrt() - T::ONE } else { T::ONE - (T::TWO - u).sqrt() }
 }
 
-/// A number in [0, 1] by the density `2 - 2 x`.
-fn half_tent<T: Real>(u: T) -> T {
-    T::ONE - (T::ONE - u).sqrt()
+/// A number by a density that falls in straight lines from 0 to nothing at these distances, of which one
+/// may be 0.
+fn slanted_tent<T: Real>(u: T, (below, above): (f64, f64)) -> T {
+    let u = u * T::of(below + above);
+    let (below, above) = (T::of(below), T::of(above));
+    if u < below {
+        below * ((u / below).sqrt() - T::ONE)
+    } else {
+        above * (T::ONE - (T::ONE - (u - below) / above).max(T::ZERO).sqrt())
+    }
 }

@@ -108,7 +108,7 @@ impl Walker {
             if let Some(exit) = self.cross_cortex(&mut photon, entry, numbers) {
                 return exit;
             }
-            photon.turn_aside(self.g, numbers.next(), numbers.turn());
+            photon.scatter(self.g, numbers);
         }
     }
 
@@ -142,7 +142,7 @@ impl Walker {
             }
             photon.medulla += free;
             photon.at = [there_y, there_z];
-            photon.turn_aside(self.g, numbers.next(), numbers.turn());
+            photon.scatter(self.g, numbers);
         }
     }
 
@@ -198,7 +198,7 @@ impl Walker {
 }
 
 /// How far the circle of that squared radius is from a point inside it.
-fn boundary(radius2: f32, [at_y, at_z]: [f32; 2], [y, z]: [f32; 2]) -> f32 {
+pub(crate) fn boundary(radius2: f32, [at_y, at_z]: [f32; 2], [y, z]: [f32; 2]) -> f32 {
     let across2 = (y * y + z * z).max(1e-12);
     let outward = at_y * y + at_z * z;
     let inside = (radius2 - at_y * at_y - at_z * at_z).max(0.0);
@@ -208,16 +208,31 @@ fn boundary(radius2: f32, [at_y, at_z]: [f32; 2], [y, z]: [f32; 2]) -> f32 {
 }
 
 /// Light on its way.
-struct Photon {
+pub(crate) struct Photon {
     /// Position in the cross-section.
-    at: [f32; 2],
+    pub at: [f32; 2],
     /// Unit direction, the first part along the fibre.
-    way: [f32; 3],
+    pub way: [f32; 3],
     cortex: f32,
     medulla: f32,
 }
 
 impl Photon {
+    /// On the axis.
+    pub fn new(way: [f32; 3]) -> Self {
+        Photon { at: [0.0; 2], way, cortex: 0.0, medulla: 0.0 }
+    }
+
+    /// Moves on by that length.
+    pub fn advance(&mut self, length: f32) {
+        self.at = [self.at[0] + self.way[1] * length, self.at[1] + self.way[2] * length];
+    }
+
+    /// Scatters by Henyey and Greenstein's phase function.
+    pub fn scatter(&mut self, g: f32, numbers: &mut Numbers) {
+        self.turn_aside(g, numbers.next(), numbers.turn());
+    }
+
     /// Length of the direction's part across the fibre.
     fn across(&self) -> f32 {
         let [_, y, z] = self.way;
@@ -226,7 +241,7 @@ impl Photon {
 
     /// Puts the photon on the line it moves along: at `offset` from the axis, `along` past the point next
     /// to it (in the cross-section).
-    fn place(&mut self, offset: f32, across: f32, along: f32) {
+    pub fn place(&mut self, offset: f32, across: f32, along: f32) {
         let (y, z) = (self.way[1] / across, self.way[2] / across);
         self.at = [y * along - z * offset, z * along + y * offset];
     }
