@@ -15,7 +15,8 @@ th:first-child,td:first-child,td.word{text-align:left}dt{font-weight:600}dd{marg
 /// Text made safe inside elements and quoted attributes.
 ///
 /// Control characters no HTML or XML page may hold become U+FFFD.
-pub(crate) fn escape(text: &str) -> String {
+#[must_use]
+pub fn escape(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for c in text.chars() {
         match c {

@@ -46,4 +46,6 @@ mod report;
 
 pub use error::ReportError;
 pub use figures::{Figures, REL_MSE_EPSILON, TRIMMED_SHARE};
+pub use html::escape;
+pub use plot::{Curve, Plot, svg as plot_svg};
 pub use report::{Point, Report, SCHEMA, Series};

@@ -14,19 +14,26 @@ const TOP: f64 = 14.0;
 const BOTTOM: f64 = 48.0;
 
 /// One set of points of a plot.
-pub(crate) struct Curve<'a> {
+#[derive(Debug, Clone)]
+pub struct Curve<'a> {
+    /// Its name in the legend.
     pub label: &'a str,
+    /// Whether a line joins the points.
     pub joined: bool,
     /// Label, x and y; only points with x > 0 and y > 0 can be drawn.
     pub points: Vec<(&'a str, f64, f64)>,
 }
 
 /// What a plot shows.
-pub(crate) struct Plot<'a> {
+#[derive(Debug, Clone)]
+pub struct Plot<'a> {
+    /// Below the axis.
     pub x_label: &'a str,
+    /// Beside it.
     pub y_label: &'a str,
     /// Slope of the guide, -1 for MSE over seconds; none when 0.
     pub slope: f64,
+    /// In the order of the legend.
     pub curves: Vec<Curve<'a>>,
 }
 
@@ -67,7 +74,8 @@ impl Axis {
 }
 
 /// The plot as SVG; a sentence instead when no point can be drawn.
-pub(crate) fn svg(plot: &Plot) -> String {
+#[must_use]
+pub fn svg(plot: &Plot) -> String {
     let drawn = || plot.curves.iter().flat_map(|c| c.points.iter()).filter(|p| p.1 > 0.0 && p.2 > 0.0);
     let x_axis = Axis::around(drawn().map(|p| p.1), LEFT, WIDTH - RIGHT);
     let y_axis = Axis::around(drawn().map(|p| p.2), HEIGHT - BOTTOM, TOP);

@@ -2,6 +2,7 @@
 mod checks;
 mod error;
 mod landmarks;
+mod page;
 mod quadrature;
 mod random;
 mod report;

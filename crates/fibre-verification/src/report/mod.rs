@@ -128,6 +128,6 @@ impl Report {
     /// The report as one self-contained HTML page: no script, no other file, no network.
     #[must_use]
     pub fn to_html(&self) -> String {
-        String::new()
+        crate::page::report_html(self)
     }
 }
