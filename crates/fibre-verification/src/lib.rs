@@ -1,6 +1,8 @@
 //! Holds a fibre's scattering against the laws it must obey, and says what it found.
 mod checks;
+mod compare;
 mod error;
+mod eval;
 mod landmarks;
 mod page;
 mod quadrature;
@@ -13,7 +15,9 @@ mod subject;
 mod verdict;
 
 pub use checks::*;
+pub use compare::*;
 pub use error::VerificationError;
+pub use eval::{Answer, Answers, Both, COLUMNS, Column, Reference, Row, Tilt, eval, rows};
 pub use landmarks::Landmarks;
 pub use quadrature::Peak;
 pub use random::Random;

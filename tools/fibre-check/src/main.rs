@@ -1,5 +1,7 @@
 //! `fibre-check`: see `fibre-check --help`. Each subcommand is one file with its `Args` and `run`.
 
+mod compare;
+mod eval;
 mod material;
 mod output;
 mod report;
@@ -23,12 +25,16 @@ struct Args {
 #[derive(Debug, Subcommand)]
 enum Command {
     Report(report::Args),
+    Eval(eval::Args),
+    Compare(compare::Args),
 }
 
 fn main() -> ExitCode {
     let args = Args::parse();
     command_line::run(|| match &args.command {
         Command::Report(args) => report::run(args),
+        Command::Eval(args) => eval::run(args),
+        Command::Compare(args) => compare::run(args),
     })
 }
 
