@@ -56,6 +56,27 @@ pub fn chi_square_p(chi_square: f64, degrees: f64) -> f64 {
     upper_gamma(0.5 * degrees, 0.5 * chi_square)
 }
 
+/// Chance that numbers in [0, 1] lie so unevenly by accident: Kolmogorov and Smirnov's test, with Stephens'
+/// correction for small counts.
+#[must_use]
+pub fn uniform_p(values: &[f64]) -> f64 {
+    let mut sorted = values.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    let count = sorted.len() as f64;
+    if count == 0.0 {
+        return 1.0;
+    }
+    let gaps = sorted.iter().enumerate().map(|(i, &x)| {
+        let (below, above) = (i as f64 / count, (i as f64 + 1.0) / count);
+        (x - below).abs().max((above - x).abs())
+    });
+    let root = count.sqrt();
+    let lambda = (root + 0.12 + 0.11 / root) * gaps.fold(0.0, f64::max);
+    let term = |k: i32| f64::from(1 - 2 * ((k + 1) % 2)) * (-2.0 * f64::from(k * k) * lambda * lambda).exp();
+    // The series stops converging where the chance is 1 in any case.
+    if lambda < 0.2 { 1.0 } else { (2.0 * (1..100).map(term).sum::<f64>()).clamp(0.0, 1.0) }
+}
+
 /// Q(a, x), the regularised upper incomplete gamma function: the series for small x, Legendre's continued
 /// fraction (by Lentz's method) for large (Abramowitz and Stegun 6.5.29 and 6.5.31).
 fn upper_gamma(a: f64, x: f64) -> f64 {
@@ -127,6 +148,16 @@ mod tests {
         }
         assert_eq!((chi_square_p(0.0, 5.0), chi_square_p(1e9, 5.0)), (1.0, 0.0));
         assert!((chi_square_p(20_000.0, 20_000.0) - 0.498_67).abs() < 1e-4);
+    }
+
+    /// 1.36 and 1.95 over the root of the count: the critical values of every table.
+    #[test]
+    fn evenness_is_judged() {
+        let even: Vec<f64> = (0..1000).map(|i| (f64::from(i) + 0.5) / 1000.0).collect();
+        assert_eq!(uniform_p(&even), 1.0);
+        let shifted = |by: f64| uniform_p(&even.iter().map(|x| (x + by).min(1.0)).collect::<Vec<_>>());
+        assert!((shifted(1.358 / 1000_f64.sqrt()) / 0.05 - 1.0).abs() < 0.1, "{}", shifted(0.043));
+        assert!(shifted(0.0617) < 1.2e-3 && shifted(0.2) < 1e-30);
     }
 
     #[test]

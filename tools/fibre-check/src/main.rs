@@ -5,6 +5,7 @@ mod eval;
 mod material;
 mod output;
 mod report;
+mod stability;
 
 use std::process::ExitCode;
 
@@ -27,6 +28,7 @@ enum Command {
     Report(report::Args),
     Eval(eval::Args),
     Compare(compare::Args),
+    Stability(stability::Args),
 }
 
 fn main() -> ExitCode {
@@ -35,6 +37,7 @@ fn main() -> ExitCode {
         Command::Report(args) => report::run(args),
         Command::Eval(args) => eval::run(args),
         Command::Compare(args) => compare::run(args),
+        Command::Stability(args) => stability::run(args),
     })
 }
 

@@ -57,7 +57,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
 }
 
 /// One check as a line for people.
-fn line(check: &Check) -> String {
+pub fn line(check: &Check) -> String {
     let bound = match check.bound {
         Some(bound) if check.above => format!(", at least {bound:.2e}"),
         Some(bound) => format!(", at most {bound:.2e}"),

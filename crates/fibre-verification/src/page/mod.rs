@@ -4,10 +4,11 @@ mod chart;
 mod document;
 mod polar;
 mod report;
+mod stability;
 
 pub(crate) use chart::{Chart, Line};
-pub(crate) use document::Document;
 pub(crate) use report::html as report_html;
+pub(crate) use stability::html as stability_html;
 
 /// Colours of the five lobes, which colour-blind eyes tell apart (Okabe and Ito 2008).
 pub(crate) const LOBE_COLORS: [&str; 5] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#8a6d00"];

@@ -14,6 +14,7 @@ use crate::error::VerificationError;
 use crate::scatterer::Model;
 use crate::verdict::{Check, Verdict};
 
+pub(crate) use judged::energy_bound;
 pub use curves::{Curves, LobeCurve};
 pub use tables::{AlbedoRow, GoodnessRow, LightRow, LobeRow, WeightRow};
 
