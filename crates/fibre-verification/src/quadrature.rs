@@ -21,10 +21,23 @@ pub(crate) const GAUSS: [(f64, f64); 8] = [
     (0.960_289_856_497_536_3, 0.101_228_536_290_376_3),
 ];
 
+/// The rule of four: for panels that were cut in two.
+pub(crate) const GAUSS_OF_FOUR: [(f64, f64); 4] = [
+    (-0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+    (-0.339_981_043_584_856_26, 0.652_145_154_862_546_2),
+    (0.339_981_043_584_856_26, 0.652_145_154_862_546_2),
+    (0.861_136_311_594_052_6, 0.347_854_845_137_453_85),
+];
+
 /// The nodes of [low, high]: place and weight.
 pub(crate) fn nodes(low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
+    nodes_of(&GAUSS, low, high)
+}
+
+/// The same by another rule.
+pub(crate) fn nodes_of(rule: &'static [(f64, f64)], low: f64, high: f64) -> impl Iterator<Item = (f64, f64)> {
     let (middle, half) = (0.5 * (low + high), 0.5 * (high - low));
-    GAUSS.into_iter().map(move |(x, weight)| (middle + half * x, half * weight))
+    rule.iter().map(move |&(x, weight)| (middle + half * x, half * weight))
 }
 
 /// The integral of `f` over panels with the given edges.

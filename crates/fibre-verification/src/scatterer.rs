@@ -1,8 +1,6 @@
 //! What the checks ask of a model: so little that another one, or a broken one, can be put in its place.
 
-use fibre_scattering::{
-    Absorption, FibreSample, FibreScatter, FurParameters, LobeValues, ReferenceScatter,
-};
+use fibre_scattering::{Absorption, FibreSample, FibreScatter, FurParameters, LobeValues, ReferenceScatter};
 use glam::Vec3;
 
 use crate::landmarks::Landmarks;
@@ -81,7 +79,8 @@ pub trait Model: Sync {
     /// The absorption of its own parameters.
     fn absorption(&self) -> Absorption {
         let FurParameters { hair, medulla } = self.parameters();
-        Absorption { cortex: hair.sigma_a, medulla: medulla.sigma_a }
+        // The parameters of a model have passed their check, and these bounds with it.
+        Absorption::new(hair.sigma_a, medulla.sigma_a).unwrap_or_default()
     }
 }
 

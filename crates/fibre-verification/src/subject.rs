@@ -72,7 +72,7 @@ impl Model for Subject {
             return None;
         }
         let mut hair = self.parameters.hair;
-        hair.sigma_a = absorption.cortex;
+        hair.sigma_a = absorption.cortex();
         let reference = ReferenceBcsdf::new(&hair).ok()?;
         // From the numbers single precision is given, so that only its arithmetic is measured.
         Some(Box::new(reference.at(widened(view.wo()), f64::from(view.h as f32))))

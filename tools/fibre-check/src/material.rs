@@ -70,7 +70,7 @@ impl MaterialArgs {
             return Err(anyhow!("the material's absorption differs from strand to strand: give one colour"));
         };
         let mut parameters = dressed.parameters;
-        (parameters.hair.sigma_a, parameters.medulla.sigma_a) = (absorption.cortex, absorption.medulla);
+        (parameters.hair.sigma_a, parameters.medulla.sigma_a) = (absorption.cortex(), absorption.medulla());
         let nodes = match dressed.field {
             Field::Near => None,
             Field::Far { nodes } => Some(nodes),

@@ -23,6 +23,9 @@ pub struct Args {
     /// Directions drawn from each of six views
     #[arg(long, default_value_t = 1_000_000, value_parser = clap::value_parser!(u64).range(1000..=1_000_000_000))]
     pub samples: u64,
+    /// Fewer views: a look in a second
+    #[arg(long)]
+    pub quick: bool,
     /// Seed of everything random
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
@@ -36,7 +39,7 @@ pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     }
     let subject = args.material.subject()?;
     let bar = progress_bar(1, "checking");
-    let settings = Settings { samples: args.samples, seed: args.seed };
+    let settings = Settings { samples: args.samples, seed: args.seed, quick: args.quick };
     let report = Report::new(&subject, &args.material.title(), settings, &|done, of| {
         bar.set_len(of);
         bar.set(done);

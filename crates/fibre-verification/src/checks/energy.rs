@@ -34,15 +34,17 @@ impl Energy {
     }
 }
 
-/// Integrates the fibre with this absorption as seen from `view`.
+/// Integrates the fibre with this absorption as seen from `view`; in double precision only if asked, which is
+/// slow.
 #[must_use]
-pub fn energy(model: &dyn Model, view: View, absorption: Absorption) -> Energy {
+pub fn energy(model: &dyn Model, view: View, absorption: Absorption, double: bool) -> Energy {
     let scatterer = model.at(view, absorption);
     let sphere = Sphere::new(&model.landmarks(view));
+    let double = if double { model.double_at(view, absorption) } else { None };
     Energy {
         view,
         single: sphere.refined(parts(model)).single(&*scatterer),
-        double: model.double_at(view, absorption).map(|double| sphere.double(&*double)),
+        double: double.map(|double| sphere.double(&*double)),
         stated: scatterer.albedo().map(|lobe| lobe.as_dvec3().to_array()),
     }
 }

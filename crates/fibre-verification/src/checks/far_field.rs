@@ -52,7 +52,9 @@ pub fn far_field(parameters: &FurParameters) -> Result<Vec<FarField>, Verificati
 fn averaged(near: &Subject, theta_o: f64, absorption: Absorption, wi: [f64; 3]) -> f64 {
     over_offsets(near, theta_o, |view| match near.double_at(view, absorption) {
         Some(double) => double.evaluate_with_pdf(wi).0.as_flattened().iter().sum::<f64>() / 3.0,
-        None => f64::from(near.at(view, absorption).evaluate_with_pdf(narrow(wi)).0.sum().element_sum()) / 3.0,
+        None => {
+            f64::from(near.at(view, absorption).evaluate_with_pdf(narrow(wi)).0.sum().element_sum()) / 3.0
+        }
     })
 }
 

@@ -30,7 +30,7 @@ pub struct Goodness {
 #[must_use]
 pub fn goodness(model: &dyn Model, view: View, absorption: Absorption, count: u64, seed: u64) -> Goodness {
     let scatterer = model.at(view, absorption);
-    let sphere = Sphere::new(&model.landmarks(view));
+    let sphere = Sphere::new(&model.landmarks(view)).for_counting();
     let masses = match model.double_at(view, absorption) {
         Some(double) => sphere.masses(|wi| double.evaluate_with_pdf(wi).1),
         None => sphere.masses(|wi| f64::from(scatterer.evaluate_with_pdf(narrow(wi)).1)),

@@ -139,7 +139,12 @@ pub fn estimates(
     let parts: Vec<Sums> = (0..count.div_ceil(BLOCK))
         .into_par_iter()
         .map(|block| {
-            estimate(&*scatterer, sky, BLOCK.min(count - block * BLOCK), Random::new(seed, 0x315_0000 + block))
+            estimate(
+                &*scatterer,
+                sky,
+                BLOCK.min(count - block * BLOCK),
+                Random::new(seed, 0x315_0000 + block),
+            )
         })
         .collect();
     let sums = parts.into_iter().fold(Sums::default(), Sums::joined);
@@ -191,12 +196,7 @@ fn estimate(scatterer: &dyn Scatterer, sky: &Sky, count: u64, mut random: Random
             fibre = value * sky.radiance(wi) / f64::from(sample.pdf);
             (balance_b, power_b) = shares(f64::from(sample.pdf), sky.pdf(wi));
         }
-        let found = [
-            light,
-            fibre,
-            light * balance_a + fibre * balance_b,
-            light * power_a + fibre * power_b,
-        ];
+        let found = [light, fibre, light * balance_a + fibre * balance_b, light * power_a + fibre * power_b];
         for (moments, value) in sums.ways.iter_mut().zip(found) {
             moments.push(value);
         }

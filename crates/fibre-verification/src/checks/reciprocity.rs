@@ -35,8 +35,7 @@ pub(crate) fn over_offsets(model: &dyn Model, theta_o: f64, f: impl Fn(View) -> 
     // Lobes sweep the whole turn as the offset goes across, at most six times as fast as its angle.
     let scale = azimuthal_scale(&model.parameters().hair);
     let count = (4.0 / scale).clamp(12.0, 2000.0) as u32;
-    let edges: Vec<f64> =
-        (0..=count).map(|i| -FRAC_PI_2 + PI * f64::from(i) / f64::from(count)).collect();
+    let edges: Vec<f64> = (0..=count).map(|i| -FRAC_PI_2 + PI * f64::from(i) / f64::from(count)).collect();
     0.5 * integral(&edges, |gamma| gamma.cos() * f(View { theta_o, h: gamma.sin() }))
 }
 
@@ -64,9 +63,8 @@ pub fn reciprocity(model: &dyn Model, absorption: Absorption, pairs: u32, seed: 
         push(1, there, back);
         push(2, there / theta_i.cos(), back / theta_o.cos());
         push(0, averaged(theta_o, -theta_o, phi), averaged(-theta_o, theta_o, -phi));
-        let fixed = |theta_o, theta_i, phi| {
-            value(model, View { theta_o, h }, absorption, direction(theta_i, phi))
-        };
+        let fixed =
+            |theta_o, theta_i, phi| value(model, View { theta_o, h }, absorption, direction(theta_i, phi));
         push(3, fixed(theta_o, theta_i, phi), fixed(theta_i, theta_o, -phi));
     }
     let [level, any, any_f, near] = sums.map(|(off, mean)| if mean > 0.0 { off / mean } else { 0.0 });
@@ -83,8 +81,12 @@ pub fn mirror_symmetry(model: &dyn Model, view: View, absorption: Absorption, co
         let Some(sample) = left.sample(random.four()) else { continue };
         let mut wi = sample.wi;
         wi.z = -wi.z;
-        let (a, b) = (sample.pdf, right.evaluate_with_pdf(wi).1);
-        worst = worst.max(f64::from((a - b).abs() / a.max(b)));
+        let (values, pdf) = right.evaluate_with_pdf(wi);
+        let pairs = [(sample.pdf, pdf), (sample.values.sum().element_sum(), values.sum().element_sum())];
+        for (a, b) in pairs {
+            let off = f64::from((a - b).abs() / a.max(b).max(f32::MIN_POSITIVE));
+            worst = if off.is_nan() { f64::INFINITY } else { worst.max(off) };
+        }
     }
     worst
 }

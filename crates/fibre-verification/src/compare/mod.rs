@@ -134,10 +134,7 @@ pub fn comparison_json(sets: &[Comparison]) -> Result<String, VerificationError>
     Ok(serde_json::to_string_pretty(sets)? + "\n")
 }
 
-fn compare_set<'a>(
-    set: &str,
-    rows: impl Iterator<Item = &'a Row>,
-) -> Result<Comparison, VerificationError> {
+fn compare_set<'a>(set: &str, rows: impl Iterator<Item = &'a Row>) -> Result<Comparison, VerificationError> {
     let steps = steps();
     let (mut double, mut single, mut unturned) = (Sum::default(), Sum::default(), Sum::default());
     let mut values: [Sum; 5] = Default::default();
@@ -145,7 +142,8 @@ fn compare_set<'a>(
     let (mut count, mut answers) = (0, Answers::default());
     for row in rows {
         let Some(reference) = row.reference else {
-            let fault = "the answers f_r, f_g, f_b, pdf, exact_r, exact_g, exact_b must all be there".to_owned();
+            let fault =
+                "the answers f_r, f_g, f_b, pdf, exact_r, exact_g, exact_b must all be there".to_owned();
             return Err(VerificationError::Heading { column: "f_r".to_owned(), fault });
         };
         count += 1;

@@ -51,9 +51,17 @@ impl Chart<'_> {
         let small = if self.root { vec![0.02 * step, 0.2 * step] } else { Vec::new() };
         for value in (0..=count).map(|i| step * f64::from(i)).chain(small) {
             let y = at_y(value);
-            let _ = writeln!(out, "<line stroke=\"#ddd\" x1=\"{LEFT}\" y1=\"{y:.1}\" x2=\"{right}\" y2=\"{y:.1}\"/>");
+            let _ = writeln!(
+                out,
+                "<line stroke=\"#ddd\" x1=\"{LEFT}\" y1=\"{y:.1}\" x2=\"{right}\" y2=\"{y:.1}\"/>"
+            );
             let label = short(value);
-            let _ = writeln!(out, "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>", LEFT - 7.0, y + 4.0);
+            let _ = writeln!(
+                out,
+                "<text x=\"{}\" y=\"{:.1}\" text-anchor=\"end\">{label}</text>",
+                LEFT - 7.0,
+                y + 4.0
+            );
         }
         let mut x = (self.x.0 / self.x_step).ceil() * self.x_step;
         while x <= self.x.1 + 1e-9 {
@@ -81,10 +89,11 @@ impl Chart<'_> {
         for (index, line) in self.lines.iter().enumerate() {
             let color = line.color;
             let drawn = line.points.iter().filter(|point| point.1.is_finite());
-            let path: Vec<String> =
-                drawn.map(|&(x, y)| format!("{:.1},{:.1}", at_x(x), at_y(y))).collect();
+            let path: Vec<String> = drawn.map(|&(x, y)| format!("{:.1},{:.1}", at_x(x), at_y(y))).collect();
             let path = path.join(" ");
-            if line.filled && let (Some(first), Some(last)) = (line.points.first(), line.points.last()) {
+            if line.filled
+                && let (Some(first), Some(last)) = (line.points.first(), line.points.last())
+            {
                 let (left, end) = (at_x(first.0), at_x(last.0));
                 let _ = writeln!(
                     out,

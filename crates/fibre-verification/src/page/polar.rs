@@ -20,10 +20,16 @@ pub(crate) fn svg(title: &str, curve: &LobeCurve, reach: f64) -> String {
     let mut out = format!(
         "<svg viewBox=\"0 0 {SIZE} {height}\" width=\"{SIZE}\" height=\"{height}\" font-size=\"12\" role=\"img\" aria-label=\"{title}\">\n"
     );
-    let _ = writeln!(out, "<text x=\"{middle}\" y=\"12\" text-anchor=\"middle\" font-size=\"13\" font-weight=\"600\">{title}</text>");
+    let _ = writeln!(
+        out,
+        "<text x=\"{middle}\" y=\"12\" text-anchor=\"middle\" font-size=\"13\" font-weight=\"600\">{title}</text>"
+    );
     for share in [0.25, 0.5, 1.0] {
         let r = radius * f64::sqrt(share);
-        let _ = writeln!(out, "<circle stroke=\"#ddd\" fill=\"none\" cx=\"{middle}\" cy=\"{level}\" r=\"{r:.1}\"/>");
+        let _ = writeln!(
+            out,
+            "<circle stroke=\"#ddd\" fill=\"none\" cx=\"{middle}\" cy=\"{level}\" r=\"{r:.1}\"/>"
+        );
     }
     for step in 0..12 {
         let (sin, cos) = (TAU * f64::from(step) / 12.0).sin_cos();

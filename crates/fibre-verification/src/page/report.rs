@@ -24,7 +24,8 @@ pub(crate) fn html(report: &Report) -> String {
 
 fn banner(page: &mut Document, report: &Report) {
     let of = |verdict| report.checks.iter().filter(|check| check.verdict == verdict).count();
-    let (passed, failed, told) = (of(Verdict::Pass), of(Verdict::Fail), of(Verdict::Told) + of(Verdict::Unjudged));
+    let (passed, failed, told) =
+        (of(Verdict::Pass), of(Verdict::Fail), of(Verdict::Told) + of(Verdict::Unjudged));
     let words = if failed == 0 {
         format!("All {passed} checks pass; {told} figures are told without a promise.")
     } else {
@@ -54,7 +55,10 @@ pub(super) fn checks(page: &mut Document, checks: &[Check]) {
 
 fn material(page: &mut Document, report: &Report) {
     page.heading("Material");
-    page.table(&["parameter", "value"], report.parameters.iter().map(|(name, value)| vec![word(name), cell(value)]));
+    page.table(
+        &["parameter", "value"],
+        report.parameters.iter().map(|(name, value)| vec![word(name), cell(value)]),
+    );
     let about = report.about.iter().map(|(key, value)| format!("{key}: {value}"));
     page.note(&about.collect::<Vec<_>>().join("; "));
 }
@@ -95,7 +99,17 @@ fn lobes(page: &mut Document, report: &Report) {
     ));
     let degrees = |value: Option<f64>| value.map_or(String::new(), |value| format!("{value:.2}°"));
     page.table(
-        &["lobe", "lies about theta", "about phi", "deviation along", "scale around", "red", "green", "blue", ""],
+        &[
+            "lobe",
+            "lies about theta",
+            "about phi",
+            "deviation along",
+            "scale around",
+            "red",
+            "green",
+            "blue",
+            "",
+        ],
         report.lobes.iter().map(|row| {
             let mut cells = vec![word(row.lobe)];
             let shape = [row.inclination, row.azimuth, row.deviation, row.scale];
@@ -105,7 +119,9 @@ fn lobes(page: &mut Document, report: &Report) {
             cells
         }),
     );
-    page.note("The share of light each lobe scatters, seen from 30° at the offset 0.3; a patch shows its colour.");
+    page.note(
+        "The share of light each lobe scatters, seen from 30° at the offset 0.3; a patch shows its colour.",
+    );
 }
 
 fn legend<'a>(page: &mut Document, curves: impl Iterator<Item = &'a LobeCurve>) {
@@ -145,7 +161,19 @@ fn albedo(page: &mut Document, report: &Report) {
     if near {
         headings.push("h");
     }
-    headings.extend(["", "red", "green", "blue", "R", "TT", "TRT", "residual", "scattered", "white f32", "white f64"]);
+    headings.extend([
+        "",
+        "red",
+        "green",
+        "blue",
+        "R",
+        "TT",
+        "TRT",
+        "residual",
+        "scattered",
+        "white f32",
+        "white f64",
+    ]);
     page.table(&headings, report.albedo.iter().map(row));
 }
 
@@ -157,7 +185,13 @@ fn sampling(page: &mut Document, report: &Report) {
         report.goodness.iter().map(|row| {
             let cells = (row.degrees + 1.0).to_string();
             let chi_square = format!("{:.1}", row.chi_square);
-            vec![word(&row.view), cell(&row.samples.to_string()), cell(&cells), cell(&chi_square), cell(&figure(row.p))]
+            vec![
+                word(&row.view),
+                cell(&row.samples.to_string()),
+                cell(&cells),
+                cell(&chi_square),
+                cell(&figure(row.p)),
+            ]
         }),
     );
     page.heading("Weights of samples");
@@ -201,11 +235,20 @@ fn far_field(page: &mut Document, report: &Report) {
     let points = report.far_field.iter().zip(&label);
     let points = points.map(|(far, label)| (label.as_str(), far.nanoseconds * 1e-9, far.error)).collect();
     let curve = Curve { label: "far field", joined: true, points };
-    page.raw(&plot_svg(&Plot { x_label: "seconds", y_label: "relative error", slope: 0.0, curves: vec![curve] }));
+    page.raw(&plot_svg(&Plot {
+        x_label: "seconds",
+        y_label: "relative error",
+        slope: 0.0,
+        curves: vec![curve],
+    }));
     page.table(
         &["nodes", "error", "ns"],
         report.far_field.iter().map(|far| {
-            vec![cell(&far.nodes.to_string()), cell(&figure(far.error)), cell(&format!("{:.0}", far.nanoseconds))]
+            vec![
+                cell(&far.nodes.to_string()),
+                cell(&figure(far.error)),
+                cell(&format!("{:.0}", far.nanoseconds)),
+            ]
         }),
     );
 }

@@ -70,8 +70,18 @@ fn rows(page: &mut Document, table: &Stability, family: &str) {
     });
     page.table(
         &[
-            "case", "<view", "<verdict", "value error", "density error", "energy error", "integral error",
-            "chi-square p", "odd", "evaluate ns", "sample ns", "<fault",
+            "case",
+            "<view",
+            "<verdict",
+            "value error",
+            "density error",
+            "energy error",
+            "integral error",
+            "chi-square p",
+            "odd",
+            "evaluate ns",
+            "sample ns",
+            "<fault",
         ],
         rows,
     );

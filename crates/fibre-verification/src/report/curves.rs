@@ -69,9 +69,11 @@ fn curve(angles: &[f64], f: impl Fn(f64) -> [f64; 5] + Sync) -> LobeCurve {
 
 /// Even steps of two degrees, and finer ones where lobes are.
 fn abscissae(low: f64, high: f64, peaks: &[Peak]) -> Vec<f64> {
-    let finer: Vec<Peak> = peaks.iter().map(|peak| Peak { width: (0.3 * peak.width).max(2e-3), ..*peak }).collect();
+    let finer: Vec<Peak> =
+        peaks.iter().map(|peak| Peak { width: (0.3 * peak.width).max(2e-3), ..*peak }).collect();
     let steps = ((high - low) / 2.0_f64.to_radians()).round() as u32;
-    let mut all: Vec<f64> = (0..=steps).map(|i| low + (high - low) * f64::from(i) / f64::from(steps)).collect();
+    let mut all: Vec<f64> =
+        (0..=steps).map(|i| low + (high - low) * f64::from(i) / f64::from(steps)).collect();
     all.extend(panels(low, high, &finer, &[]));
     all.sort_by(f64::total_cmp);
     all.dedup_by(|b, a| *b - *a < 2e-3);

@@ -22,6 +22,7 @@ const WEIGHT_BOUND: f64 = 1.0 + 1e-5;
 const FEWEST_EFFECTIVE: f64 = 500.0;
 /// Pairs of directions that are exchanged.
 const PAIRS: u32 = 24;
+const QUICK_PAIRS: u32 = 3;
 
 pub(super) fn checks(
     model: &dyn Model,
@@ -55,7 +56,11 @@ fn energy_checks(model: &dyn Model, white: &[Energy], colored: &[Energy]) -> Vec
     let unit = model.parameters().hair.lobe_weights == [1.0; 5];
     // With weights for look development a white fibre is not white; it must still be what its lobes say.
     let right = |energy: &Energy| if unit { [1.0; 3] } else { energy.stated_total() };
-    let law = if unit { "without absorption all light returns" } else { "the fibre returns what its weighted lobes say" };
+    let law = if unit {
+        "without absorption all light returns"
+    } else {
+        "the fibre returns what its weighted lobes say"
+    };
     let mut list = Vec::new();
     let (figure, at) = worst(found(white, |energy| off(energy.single.total(), right(energy))));
     list.push(
@@ -63,9 +68,11 @@ fn energy_checks(model: &dyn Model, white: &[Energy], colored: &[Energy]) -> Vec
             .found_at(at)
             .because(format!("{law}; quadrature over all directions, {} views", white.len())),
     );
-    let doubles: Vec<(Integrals, &Energy)> = white.iter().filter_map(|energy| Some((energy.double?, energy))).collect();
+    let doubles: Vec<(Integrals, &Energy)> =
+        white.iter().filter_map(|energy| Some((energy.double?, energy))).collect();
     if !doubles.is_empty() {
-        let figures = doubles.iter().map(|(double, energy)| (off(double.total(), right(energy)), energy.view.words()));
+        let figures =
+            doubles.iter().map(|(double, energy)| (off(double.total(), right(energy)), energy.view.words()));
         let (figure, at) = worst(figures);
         list.push(
             Check::at_most("White furnace, double precision", "|1 - albedo|", figure, DOUBLE_BOUND)
@@ -98,7 +105,10 @@ fn sampling_checks(model: &dyn Model, drawn: &[Drawn]) -> Vec<Check> {
     };
     let (p, at) = {
         let all = drawn.iter().map(|drawn| (drawn.goodness.p, drawn.goodness.view.words()));
-        all.fold((1.0, String::new()), |least, found| if found.0 <= least.0 || found.0.is_nan() { found } else { least })
+        all.fold(
+            (1.0, String::new()),
+            |least, found| if found.0 <= least.0 || found.0.is_nan() { found } else { least },
+        )
     };
     let mut list = vec![
         Check::at_least("Samples follow the density", "chi-square p", p, SIGNIFICANCE / views).found_at(at).because(
@@ -118,15 +128,27 @@ fn sampling_checks(model: &dyn Model, drawn: &[Drawn]) -> Vec<Check> {
     } else {
         Check::told("Largest weight of a sample", "largest weight", figure)
     };
-    list.push(weight.found_at(at).because("value over density, every channel: a path's throughput never grows"));
+    list.push(
+        weight.found_at(at).because("value over density, every channel: a path's throughput never grows"),
+    );
     let count = |f: &dyn Fn(&Drawn) -> u64| drawn.iter().map(f).sum::<u64>() as f64;
     list.push(
-        Check::at_most("A sample is what evaluation says of it", "differences", count(&|d| d.goodness.draws.inconsistent), 0.0)
-            .because("values and density of the sample against an evaluation of its direction, to the bit"),
+        Check::at_most(
+            "A sample is what evaluation says of it",
+            "differences",
+            count(&|d| d.goodness.draws.inconsistent),
+            0.0,
+        )
+        .because("values and density of the sample against an evaluation of its direction, to the bit"),
     );
     list.push(
-        Check::at_most("Every number is a number", "broken samples", count(&|d| d.goodness.draws.broken), 0.0)
-            .because("no NaN, no infinity, directions of length 1"),
+        Check::at_most(
+            "Every number is a number",
+            "broken samples",
+            count(&|d| d.goodness.draws.broken),
+            0.0,
+        )
+        .because("no NaN, no infinity, directions of length 1"),
     );
     list
 }
@@ -163,18 +185,25 @@ fn symmetry_checks(model: &dyn Model, settings: Settings) -> Vec<Check> {
     let mut list = Vec::new();
     if model.is_near() {
         let views = [View::degrees(20.0, 0.3), View::degrees(-60.0, 0.9)];
-        let figures = views.map(|view| (mirror_symmetry(model, view, absorption, 2000, settings.seed), view.words()));
+        let figures =
+            views.map(|view| (mirror_symmetry(model, view, absorption, 2000, settings.seed), view.words()));
         let (figure, at) = worst(figures);
         // A direction's rounding is mirrored with it: what is left is that of angles.
         let bound = 1e-4 + 2e-6 / crate::landmarks::narrowest(model.parameters());
         list.push(
-            Check::at_most("Mirrored offset and azimuth change nothing", "relative difference", figure, bound)
-                .found_at(at)
-                .because("density, left against right"),
+            Check::at_most(
+                "Mirrored offset and azimuth change nothing",
+                "relative difference",
+                figure,
+                bound,
+            )
+            .found_at(at)
+            .because("value and density, left against right"),
         );
     }
+    let pairs = if settings.quick { QUICK_PAIRS } else { PAIRS };
     let upright = model.upright();
-    let measured = reciprocity(upright.as_deref().unwrap_or(model), absorption, PAIRS, settings.seed);
+    let measured = reciprocity(upright.as_deref().unwrap_or(model), absorption, pairs, settings.seed);
     let name = "Reciprocal around the fibre";
     let level = if upright.is_some() && !model.parameters().medulla.scatters() {
         Check::at_most(name, "asymmetry", measured.level, 1e-4)
@@ -184,17 +213,17 @@ fn symmetry_checks(model: &dyn Model, settings: Settings) -> Vec<Check> {
     list.push(level.because(
         "averaged over the offset, without tilt, both directions at the same inclination: mean |a - b| over mean",
     ));
-    list.push(Check::told("Not promised: any two inclinations, averaged offset", "asymmetry", measured.any).because(
-        format!(
-            "the attenuations depend on the outgoing inclination only; f itself: {:.1e}",
-            measured.any_f
-        ),
-    ));
+    list.push(
+        Check::told("Not promised: any two inclinations, averaged offset", "asymmetry", measured.any)
+            .because(format!(
+                "the attenuations depend on the outgoing inclination only; f itself: {:.1e}",
+                measured.any_f
+            )),
+    );
     if model.is_near() {
-        list.push(
-            Check::told("Not promised: fixed offset", "asymmetry", measured.near)
-                .because("an offset belongs to the outgoing ray; light from the other end meets the fibre elsewhere"),
-        );
+        list.push(Check::told("Not promised: fixed offset", "asymmetry", measured.near).because(
+            "an offset belongs to the outgoing ray; light from the other end meets the fibre elsewhere",
+        ));
     }
     list
 }

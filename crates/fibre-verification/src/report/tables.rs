@@ -4,9 +4,7 @@ use fibre_scattering::{Absorption, Lobe};
 use serde::Serialize;
 
 use super::Settings;
-use crate::checks::{
-    Energy, Estimates, Goodness, Sky, Weights, energy, estimates, goodness, weights,
-};
+use crate::checks::{Energy, Estimates, Goodness, Sky, Weights, energy, estimates, goodness, weights};
 use crate::landmarks::{azimuthal_scale, lobe_azimuths, lobe_deviations, lobe_inclinations};
 use crate::scatterer::{Model, View};
 
@@ -18,6 +16,11 @@ const OFFSETS: [f64; 8] = [-0.9999, -0.8, -0.4, 0.0, 0.2, 0.6, 0.95, 1.0];
 const DRAWN: [(f64, f64); 6] =
     [(0.0, 0.0), (20.0, 0.3), (-45.0, -0.7), (70.0, 0.95), (85.0, -0.3), (89.9, 0.5)];
 
+/// What a quick look takes of them.
+const QUICK_INCLINATIONS: [f64; 2] = [15.0, -80.0];
+const QUICK_OFFSETS: [f64; 3] = [-0.4, 0.6, 1.0];
+const QUICK_DRAWN: usize = 3;
+
 /// From where a material is looked at.
 pub(super) struct Views {
     /// Whether the offset counts.
@@ -27,12 +30,20 @@ pub(super) struct Views {
 }
 
 impl Views {
-    pub fn of(model: &dyn Model) -> Views {
+    pub fn of(model: &dyn Model, quick: bool) -> Views {
         let near = model.is_near();
-        let offsets: &[f64] = if near { &OFFSETS } else { &[0.0] };
-        let energy = INCLINATIONS.iter().flat_map(|&theta| offsets.iter().map(move |&h| View::degrees(theta, h)));
-        let drawn = DRAWN.map(|(theta, h)| View::degrees(theta, if near { h } else { 0.0 }));
-        Views { near, energy: energy.collect(), drawn: drawn.to_vec() }
+        let offsets: &[f64] = match (near, quick) {
+            (false, _) => &[0.0],
+            (true, false) => &OFFSETS,
+            (true, true) => &QUICK_OFFSETS,
+        };
+        let inclinations: &[f64] = if quick { &QUICK_INCLINATIONS } else { &INCLINATIONS };
+        let count = if quick { QUICK_DRAWN } else { DRAWN.len() };
+        let energy =
+            inclinations.iter().flat_map(|&theta| offsets.iter().map(move |&h| View::degrees(theta, h)));
+        let drawn = DRAWN.iter().take(count);
+        let drawn = drawn.map(|&(theta, h)| View::degrees(theta, if near { h } else { 0.0 }));
+        Views { near, energy: energy.collect(), drawn: drawn.collect() }
     }
 
     /// How many parts the work has.
@@ -44,7 +55,10 @@ impl Views {
 /// The fibre without absorption and as it is, from every view.
 pub(super) fn energies(model: &dyn Model, views: &Views, tick: &dyn Fn()) -> (Vec<Energy>, Vec<Energy>) {
     let pair = |&view: &View| {
-        let pair = (energy(model, view, Absorption::default()), energy(model, view, model.absorption()));
+        let pair = (
+            energy(model, view, Absorption::default(), true),
+            energy(model, view, model.absorption(), false),
+        );
         tick();
         pair
     };
@@ -66,7 +80,7 @@ pub(super) fn goodness_rows(
     let row = |(number, &view): (usize, &View)| {
         let seed = settings.seed.wrapping_add(number as u64);
         let goodness = goodness(model, view, model.absorption(), settings.samples, seed);
-        let integral = energy(model, view, model.absorption());
+        let integral = energy(model, view, model.absorption(), false);
         let weights = weights(&goodness.draws, integral.single.total(), super::judged::energy_bound(model));
         tick();
         Drawn { goodness, weights }
@@ -238,5 +252,10 @@ pub(super) fn lobe_rows(model: &dyn Model) -> Vec<LobeRow> {
         scale: (p < 3).then_some(scale.to_degrees()),
         share: albedo[p].as_dvec3().to_array(),
     };
-    Lobe::ALL.into_iter().enumerate().map(row).filter(|row| row.lobe != "scattered" || row.share != [0.0; 3]).collect()
+    Lobe::ALL
+        .into_iter()
+        .enumerate()
+        .map(row)
+        .filter(|row| row.lobe != "scattered" || row.share != [0.0; 3])
+        .collect()
 }

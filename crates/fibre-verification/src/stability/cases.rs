@@ -77,13 +77,14 @@ fn base() -> HairParameters {
 #[must_use]
 pub fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
-    let mut add = |family, name: String, hair: HairParameters, medulla: Medulla, nodes, views: &[(f64, f64)]| {
-        for &(theta, h) in views {
-            let view = View::degrees(theta, h);
-            let parameters = FurParameters { hair, medulla };
-            cases.push(Case { family, name: name.clone(), parameters, nodes, view });
-        }
-    };
+    let mut add =
+        |family, name: String, hair: HairParameters, medulla: Medulla, nodes, views: &[(f64, f64)]| {
+            for &(theta, h) in views {
+                let view = View::degrees(theta, h);
+                let parameters = FurParameters { hair, medulla };
+                cases.push(Case { family, name: name.clone(), parameters, nodes, view });
+            }
+        };
     let few = [VIEWS[1], VIEWS[2], VIEWS[6]];
     let none = Medulla::NONE;
     for (beta_m, beta_n) in ROUGHNESS {
@@ -113,7 +114,14 @@ pub fn cases() -> Vec<Case> {
     }
     for roughness in FILM_ROUGHNESS {
         let film = Some(WaterFilm { roughness, ..WaterFilm::default() });
-        add("wet", format!("film of roughness {roughness}"), HairParameters { film, ..base() }, none, None, &few);
+        add(
+            "wet",
+            format!("film of roughness {roughness}"),
+            HairParameters { film, ..base() },
+            none,
+            None,
+            &few,
+        );
     }
     for aspect in ASPECTS {
         add("ellipse", format!("aspect {aspect}"), HairParameters { aspect, ..base() }, none, None, &few);

@@ -61,8 +61,8 @@ pub(super) fn measure(case: &Case, number: u64, effort: Effort) -> Result<Stabil
     let subject = Subject::new(&case.parameters, case.nodes)?;
     let (view, own) = (case.view, subject.absorption());
     let seed = effort.seed.wrapping_add(1000 * number);
-    let white = energy(&subject, view, Absorption::default());
-    let colored = energy(&subject, view, own);
+    let white = energy(&subject, view, Absorption::default(), false);
+    let colored = energy(&subject, view, own, false);
     let first = goodness(&subject, view, own, effort.samples, seed);
     // Once in a thousand a sound case looks bad; twice, once in a million.
     let again = (first.p < SIGNIFICANCE).then(|| goodness(&subject, view, own, effort.samples, seed + 1).p);

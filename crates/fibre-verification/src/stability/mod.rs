@@ -107,7 +107,8 @@ impl Stability {
                 let points: Vec<Point> =
                     rows.filter(|row| row.value_error.is_some() == with_double).map(point).collect();
                 if !points.is_empty() {
-                    report = report.with_series(Series { points, ..Series::cases(family, metric, reference, 0.0) });
+                    report = report
+                        .with_series(Series { points, ..Series::cases(family, metric, reference, 0.0) });
                 }
             }
         }
