@@ -92,6 +92,19 @@ impl Sphere {
         place(&self.along, theta) * (self.around.len() - 1) + place(&self.around, phi)
     }
 
+    /// Sums over all azimuths of what belongs to cells.
+    #[must_use]
+    pub fn rows(&self, cells: &[f64]) -> Vec<f64> {
+        cells.chunks(self.around.len() - 1).map(|row| row.iter().sum()).collect()
+    }
+
+    /// Sums over all inclinations.
+    #[must_use]
+    pub fn columns(&self, cells: &[f64]) -> Vec<f64> {
+        let count = self.around.len() - 1;
+        (0..count).map(|column| cells.iter().skip(column).step_by(count).sum()).collect()
+    }
+
     /// The integral of a function of direction over each cell, given its sum over a cell's nodes.
     fn cells_of<T: Send>(
         &self,
