@@ -142,7 +142,7 @@ impl Scatterer for MutantScatter<'_> {
                 u[0] = u[0].powf(1.03).min(0.999_999);
                 self.inner.sample(u)?
             }
-            Fault::LostDraws if u[3] < 0.005 => return None,
+            Fault::LostDraws if u[3] < 0.02 => return None,
             _ => self.inner.sample(u)?,
         };
         let before = sample.wi + Vec3::new(0.0, 1e-5, 0.0);

@@ -19,8 +19,8 @@ pub struct Goodness {
     pub chi_square: f64,
     /// Cells that were compared, less one.
     pub degrees: f64,
-    /// Chance of so large a sum by accident: three times the least of the cells', of that of their sums along the
-    /// fibre and of that of their sums around it.
+    /// Chance of so large a sum by accident: the least of the cells', of that of their sums along the fibre and of
+    /// that of their sums around it, made right for being the least of three.
     pub p: f64,
     /// The draws themselves.
     pub draws: Draws,
@@ -42,12 +42,12 @@ pub fn goodness(model: &dyn Model, view: View, absorption: Absorption, count: u6
     let (chi_square, degrees) = pearson(&expected, &found);
     let mut p = chance(chi_square, degrees);
     // Thousands of cells find what is wrong in one place, and hide what is a little wrong all over: that shows in
-    // the sums along and around the fibre. The least of three chances is a third as likely as it looks.
+    // the sums along and around the fibre. The least of three chances is rarer than it looks (Sidak).
     for sums in [Sphere::rows, Sphere::columns] {
         let (chi_square, degrees) = pearson(&sums(&sphere, &expected), &sums(&sphere, &found));
         p = p.min(chance(chi_square, degrees));
     }
-    Goodness { view, chi_square, degrees, p: (3.0 * p).min(1.0), draws }
+    Goodness { view, chi_square, degrees, p: 1.0 - (1.0 - p).powi(3), draws }
 }
 
 fn chance(chi_square: f64, degrees: f64) -> f64 {

@@ -179,7 +179,7 @@ fn albedo(page: &mut Document, report: &Report) {
 
 fn sampling(page: &mut Document, report: &Report) {
     page.heading("Samples against the density");
-    page.note("Pearson's chi-square: directions drawn, counted in cells that are dense where lobes are, against the integral of the density over each cell (double precision where there is such a path). p is the chance of so large a difference by accident: three times the least of the chances of the cells, of their sums along the fibre and of their sums around it.");
+    page.note("Pearson's chi-square: directions drawn, counted in cells that are dense where lobes are, against the integral of the density over each cell (double precision where there is such a path). p is the chance of so large a difference by accident: the least of the chances of the cells, of their sums along the fibre and of their sums around it, made right for being the least of three.");
     page.table(
         &["view", "samples", "cells", "chi-square", "p"],
         report.goodness.iter().map(|row| {
