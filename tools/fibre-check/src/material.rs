@@ -1,17 +1,20 @@
 //! Which material is checked: a preset, and what the command line changes in it.
 
-use anyhow::{anyhow, bail};
-use fibre_material::{Field, HairColor, Material, Varying};
+use std::path::PathBuf;
+
+use fibre_material::{Field, HairColor, Material};
 use fibre_verification::Subject;
 use glam::Vec3;
-use groom::Groom;
 
 #[derive(Debug, Clone, clap::Args)]
 #[command(next_help_heading = "Material")]
 pub struct MaterialArgs {
-    /// A material by name
-    #[arg(long, value_name = "NAME", default_value = "default")]
-    pub preset: String,
+    /// A material file (.yaml) [default: light brown hair]
+    #[arg(long, value_name = "FILE", conflicts_with = "preset")]
+    pub material: Option<PathBuf>,
+    /// A material by name; `list` prints the names
+    #[arg(long, value_name = "NAME")]
+    pub preset: Option<String>,
     /// Colour r,g,b of a head of hair, 0..1
     #[arg(long, value_name = "RGB", value_parser = parse_rgb, conflicts_with = "absorption")]
     pub color: Option<Vec3>,
@@ -51,31 +54,45 @@ pub struct MaterialArgs {
 }
 
 impl MaterialArgs {
-    /// Its name, for titles.
+    /// Its name, for titles, and what the command line changes in it.
     pub fn title(&self) -> String {
-        self.preset.clone()
+        let name = match (&self.material, &self.preset) {
+            (Some(path), _) => path.file_stem().unwrap_or(path.as_os_str()).to_string_lossy().into_owned(),
+            (None, Some(preset)) => preset.clone(),
+            (None, None) => "hair".to_owned(),
+        };
+        if self.changes() { format!("{name}, changed on the command line") } else { name }
     }
 
-    /// The model of it.
+    /// The model of it: of a fibre alone, so that what varies over a groom takes its mean.
     pub fn subject(&self) -> anyhow::Result<Subject> {
-        let mut material = match self.preset.as_str() {
-            "default" => Material::default(),
-            name => bail!("there is no preset `{name}`: expected default"),
+        let mut material = match (&self.material, &self.preset) {
+            (Some(path), _) => Material::open(path)?,
+            (None, Some(preset)) => Material::preset(preset)?,
+            (None, None) => Material::default(),
         };
         self.change(&mut material);
-        // A fibre alone: what varies over a groom takes the value a groom without that attribute has.
-        let strand = Groom::new(vec![0, 2], vec![Vec3::ZERO, Vec3::Y])?;
-        let dressed = material.dress(&strand)?;
-        let Varying::Constant(absorption) = dressed.absorption else {
-            return Err(anyhow!("the material's absorption differs from strand to strand: give one colour"));
-        };
-        let mut parameters = dressed.parameters;
-        (parameters.hair.sigma_a, parameters.medulla.sigma_a) = (absorption.cortex(), absorption.medulla());
-        let nodes = match dressed.field {
+        material.check()?;
+        let nodes = match material.field {
             Field::Near => None,
             Field::Far { nodes } => Some(nodes),
         };
-        Ok(Subject::new(&parameters, nodes)?)
+        Ok(Subject::new(&material.constant()?, nodes)?)
+    }
+
+    fn changes(&self) -> bool {
+        let numbers = [
+            self.beta_m,
+            self.beta_n,
+            self.alpha,
+            self.eta,
+            self.kappa,
+            self.medulla_scattering,
+            self.g,
+            self.cuticle_layers,
+        ];
+        let colors = [self.color, self.absorption, self.medulla_absorption];
+        numbers.iter().any(Option::is_some) || colors.iter().any(Option::is_some) || self.far_field.is_some()
     }
 
     fn change(&self, material: &mut Material) {

@@ -1,8 +1,9 @@
 //! `fibre-check report`: every law, one page.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use command_line::{Outcome, progress_bar};
+use fibre_material::Material;
 use fibre_verification::{Check, Report, Settings};
 
 use crate::material::MaterialArgs;
@@ -36,6 +37,11 @@ pub struct Args {
 pub fn run(args: &Args) -> anyhow::Result<Outcome> {
     for path in args.output.iter().chain(&args.json) {
         output::check(path)?;
+    }
+    if args.material.preset.as_deref() == Some("list") {
+        let names: Vec<&str> = Material::preset_names().collect();
+        output::write(Path::new("-"), &(names.join("\n") + "\n"))?;
+        return Ok(Outcome::Good);
     }
     let subject = args.material.subject()?;
     let bar = progress_bar(1, "checking");

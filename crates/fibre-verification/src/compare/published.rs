@@ -121,6 +121,7 @@ fn chances(attenuations: &[[f64; 3]; 4], slips: Slips) -> [f64; 4] {
 }
 
 /// M_p of d'Eon et al. 2011, in the two forms pbrt has it in.
+#[allow(clippy::approx_constant)] // the slip itself
 fn m(theta_i: f64, sin_o: f64, cos_o: f64, v: f64, slips: Slips) -> f64 {
     let a = theta_i.cos() * cos_o / v;
     let b = theta_i.sin() * sin_o / v;
