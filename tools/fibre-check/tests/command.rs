@@ -121,7 +121,6 @@ fn bad_tables_are_told_by_line_and_column_and_leave_nothing() {
         ("h,wobble\n0,1\n", &["`wobble`", "is not known", "theta_o_deg"]),
         ("h,h\n0,1\n", &["`h`", "twice"]),
         ("h,eta\n0\n", &["line: 2"]),
-        ("h\n\"0\n", &["line 2", "`h`"]),
     ]
     .into_iter()
     .enumerate()

@@ -104,7 +104,7 @@ pub fn cases() -> Vec<Case> {
         let hair = HairParameters { alpha: alpha.to_radians(), beta_m: 0.1, ..base() };
         add("tilt", format!("alpha {alpha}°"), hair, none, None, &few);
     }
-    for (tt, trt) in [(0.05, 8.0), (8.0, 0.05), (1.0, 1.0)] {
+    for (tt, trt) in [(0.1, 8.0), (8.0, 0.1), (1.0, 1.0)] {
         let hair = HairParameters { roughness_scales: RoughnessScales { tt, trt }, ..base() };
         add("lobe scales", format!("TT {tt}, TRT {trt}"), hair, none, None, &few);
     }
