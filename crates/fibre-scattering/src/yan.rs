@@ -124,6 +124,12 @@ impl YanScatter<'_> {
         values
     }
 
+    /// Angles of the ray against the normal, outside and inside, in the cross-section.
+    fn gammas(&self) -> (f64, f64) {
+        let angle = |(sin, cos): (f64, f64)| sin.atan2(cos);
+        (angle(self.chord.turn_i), angle(self.chord.turn_t))
+    }
+
     /// Half chords in medulla and cortex, in the cross-section.
     fn halves(&self) -> (f64, f64) {
         let kappa = f64::from(self.bcsdf.parameters.medulla.kappa);
@@ -191,7 +197,8 @@ impl YanScatter<'_> {
         let width =
             azimuthal_deviation(f64::from(self.bcsdf.parameters.hair.beta_n)) * ((lobe + 1) as f64).sqrt();
         let p = lobe as f64;
-        let centre = 2.0 * p * self.chord.gamma_t - 2.0 * self.chord.gamma_i + p * PI;
+        let (gamma_i, gamma_t) = self.gammas();
+        let centre = 2.0 * p * gamma_t - 2.0 * gamma_i + p * PI;
         let away = (phi - centre + PI).rem_euclid(TAU) - PI;
         // Turns enough that the roughest lobe has none of its light left out.
         (-8..=8).map(|turn| gaussian(away + TAU * f64::from(turn), width)).sum()
@@ -200,7 +207,7 @@ impl YanScatter<'_> {
     /// D M of TTs (0) and TRTs (1), over solid angle.
     fn scattered(&self, reflections: usize, sin_theta_i: f64, phi: f64) -> f64 {
         let Some(distributions) = &self.bcsdf.medulla else { return 0.0 };
-        let (gamma_i, gamma_t) = (self.chord.gamma_i, self.chord.gamma_t);
+        let (gamma_i, gamma_t) = self.gammas();
         // Against where the light in the medulla came from.
         let turned = phi - (gamma_t - gamma_i) - reflections as f64 * (PI + 2.0 * gamma_t);
         let around = distributions.around(self.offset(), self.theta_o.sin(), turned);
