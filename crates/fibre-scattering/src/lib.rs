@@ -1,8 +1,9 @@
-//! Hair scattering after Chiang et al. 2016: evaluate, sample, pdf, albedo.
+//! Hair and fur scattering after Chiang et al. 2016 and Yan et al. 2017: evaluate, sample, pdf, albedo.
 //!
 //! [`HairParameters`] make a [`HairBcsdf`], once per material; [`HairBcsdf::at`] makes a
 //! [`HairScatter`] of it, once per hit; that evaluates and draws directions. The five [`Lobe`]s
-//! stay apart all the way, for passes. Scenes, rays and threads are not known here.
+//! stay apart all the way, for passes. [`FurBcsdf`] adds a medulla; [`FarFieldBcsdf`] is hair with the
+//! offset integrated out; [`FibreBcsdf`] is any of them. Scenes, rays and threads are not known here.
 //!
 //! ```
 //! use fibre_scattering::{HairBcsdf, HairParameters, absorption_from_color};
@@ -25,9 +26,12 @@
 //! x is the tangent from root to tip; y and z are any two axes that make it a right-handed frame.
 //! Both directions are unit vectors and point *away* from the fibre: `wo` to the viewer, `wi` to the
 //! light. The inclination theta of a direction has `sin(theta) = x`; its azimuth is
-//! `phi = atan2(z, y)`; only the difference of azimuths counts, `phi_i - phi_o`.
+//! `phi = atan2(z, y)`. Only the difference of azimuths counts, `phi_i - phi_o`, but for a fibre of
+//! elliptical cross-section ([`HairParameters::aspect`]): its larger axis lies along y, which has to be
+//! fixed to the strand then, and not to the viewer.
 //!
-//! `h` says where across the fibre the ray passes, in radii, and has a sign. Look against the
+//! `h` says where across the fibre the ray passes, in radii (for an ellipse, in halves of the width it is
+//! seen with), and has a sign. Look against the
 //! tangent, the tip towards you, with the viewer to the right:
 //!
 //! ```text
@@ -49,11 +53,18 @@
 //! direction and that of Cycles; pbrt and Mitsuba, whose formulas are otherwise these, have it the
 //! other way round for tangents that run from root to tip.
 //!
+//! # Beyond Chiang
+//!
+//! - [`RoughnessScales`]: TT and TRT as rough as one likes beside R, as in MaterialX.
+//! - [`HairParameters::cuticle_layers`]: scales in layers, which reflect more, after Yan et al. 2017.
+//! - [`WaterFilm`]: wet hair, darker and shinier. Hair under water has no film: divide its index by water's.
+//! - [`HairParameters::aspect`]: an elliptical cross-section, through which rays are traced.
+//!
 //! # What it promises
 //!
 //! Without absorption a fibre returns all light, within 1e-4, for every roughness, tilt, index,
-//! offset and direction: the longitudinal term is exact and the residual lobe holds what R, TT and
-//! TRT leave over. `sample` draws from exactly the density `pdf` returns. Nothing returns NaN for
+//! surface, cross-section, offset and direction: the longitudinal term is exact and the residual lobe holds
+//! what R, TT and TRT leave over. Parameters out of range are refused by name, never brought to a bound. `sample` draws from exactly the density `pdf` returns. Nothing returns NaN for
 //! finite unit directions. [`ReferenceBcsdf`] is the same code in `f64`, to measure it by.
 
 mod absorption;

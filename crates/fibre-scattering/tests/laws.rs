@@ -7,8 +7,9 @@ mod support;
 use support::WATER;
 
 use fibre_scattering::{
-    Absorption, HairBcsdf, HairParameters, RoughnessScales, ScatteringError, WaterFilm,
-    absorption_from_color, absorption_from_melanin, absorption_from_pigments, color_from_absorption,
+    Absorption, FarFieldBcsdf, HairBcsdf, HairParameters, ReferenceBcsdf, RoughnessScales, ScatteringError,
+    WaterFilm, absorption_from_color, absorption_from_melanin, absorption_from_pigments,
+    color_from_absorption,
 };
 use glam::Vec3;
 use proptest::prelude::*;
@@ -105,6 +106,68 @@ proptest! {
             prop_assert!(sample.pdf > 0.0 && sample.pdf.is_finite());
             prop_assert!(sample.weight().is_finite());
             prop_assert!(sample.weight().max_element() <= 1.0 + 1e-5);
+            prop_assert_eq!((sample.values, sample.pdf), scatter.evaluate_with_pdf(sample.wi));
+        }
+    }
+
+    #[test]
+    fn nothing_is_ever_nan_in_double_precision(
+        parameters in parameters(), wo in unit(), wi in unit(), h in spanning(-1.0, 1.0), u in uniforms(),
+    ) {
+        let wo = wo.as_dvec3().normalize().to_array();
+        let scatter = ReferenceBcsdf::new(&parameters).unwrap().at(wo, f64::from(h));
+        let (values, pdf) = scatter.evaluate_with_pdf(wi.as_dvec3().normalize().to_array());
+        prop_assert!(pdf.is_finite() && pdf >= 0.0);
+        prop_assert!(values.as_flattened().iter().all(|value| value.is_finite() && *value >= 0.0));
+        if let Some(wi) = scatter.sample_direction(u.map(f64::from)) {
+            prop_assert!((glam::DVec3::from_array(wi).length() - 1.0).abs() < 1e-12);
+        }
+    }
+
+    #[test]
+    fn double_precision_says_the_same(
+        parameters in parameters(), wo in unit(), wi in unit(), h in -0.99_f32..=0.99,
+    ) {
+        // Along the fibre there is no azimuth to agree on.
+        if wo.x.abs() > 0.9999 || wi.x.abs() > 0.9999 {
+            return Ok(());
+        }
+        // Where lobes are so wide that the rounding of a direction is nothing beside them.
+        let rough = |beta: f32| beta.max(0.2);
+        let film = parameters.film.map(|film| WaterFilm { roughness: rough(film.roughness), ..film });
+        let (beta_m, beta_n) = (rough(parameters.beta_m), rough(parameters.beta_n));
+        let roughness_scales = RoughnessScales::default();
+        let parameters = HairParameters { beta_m, beta_n, film, roughness_scales, ..parameters };
+        let single = HairBcsdf::new(&parameters).unwrap().at(wo, h);
+        let (wo, wi_double) = (wo.as_dvec3().normalize(), wi.as_dvec3().normalize().to_array());
+        let double = ReferenceBcsdf::new(&parameters).unwrap().at(wo.to_array(), f64::from(h));
+        let (values, exact) = (single.evaluate(wi), double.evaluate_with_pdf(wi_double).0);
+        let albedo = double.albedo();
+        for p in 0..4 {
+            let (found, exact) = (f64::from(values.0[p].x), exact[p][0]);
+            // What carries next to nothing is as good as the light that is left of it.
+            let carried = albedo[p][0].max(1e-3);
+            prop_assert!((found - exact).abs() <= 2e-3 * exact.max(carried), "lobe {p}: {found} {exact}");
+        }
+    }
+
+    #[test]
+    fn the_far_field_is_never_nan_and_samples_what_it_evaluates(
+        parameters in parameters(), wo in unit(), wi in unit(), u in uniforms(), nodes in 1_u32..=12,
+    ) {
+        let absorption = Absorption::of_cortex(parameters.sigma_a).unwrap();
+        let scatter = FarFieldBcsdf::new(&parameters, nodes).unwrap().at(wo, absorption);
+        let (values, pdf) = scatter.evaluate_with_pdf(wi);
+        prop_assert!(pdf.is_finite() && pdf >= 0.0);
+        for value in values.0 {
+            prop_assert!(value.is_finite() && value.min_element() >= 0.0);
+        }
+        let albedo: Vec3 = scatter.albedo().into_iter().sum();
+        prop_assert!(albedo.min_element() >= 0.0 && albedo.max_element() <= 1.0 + 2e-6);
+        if let Some(sample) = scatter.sample(u) {
+            prop_assert!((sample.wi.length() - 1.0).abs() < 1e-6);
+            prop_assert!(sample.weight().is_finite() && sample.weight().max_element() <= 1.0 + 1e-5);
+            prop_assert_eq!((sample.values, sample.pdf), scatter.evaluate_with_pdf(sample.wi));
         }
     }
 

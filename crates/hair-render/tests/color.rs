@@ -30,7 +30,7 @@ fn the_colour_that_was_picked_arrives() {
     assert_eq!(before.alpha, after.alpha);
     let absorption = HairColor::Absorption(Vec3::from_array(found.absorption));
     let studio = Environment::studio(16).unwrap();
-    let by_hand = common::scene(vec![hair(tuft(200, 0.03), absorption)], Some(studio), vec![]);
+    let by_hand = common::scene(vec![hair(tuft(200, 0.03), absorption.clone())], Some(studio), vec![]);
     assert_eq!(shoot(&by_hand, &camera, &settings(16, 4)).beauty, after.beauty);
 
     // Other random numbers, other pixels, under even light: the colour is there.
