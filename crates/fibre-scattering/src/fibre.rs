@@ -236,7 +236,7 @@ impl<T: Real> Hit<T> {
     }
 
     /// f cos(theta_i) per lobe and channel, and the density over solid angle.
-    #[inline]
+    #[inline(always)]
     pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 5], T) {
         let densities = self.densities(wi);
         let value = |p: usize| {

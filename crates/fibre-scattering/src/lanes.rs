@@ -20,6 +20,8 @@ pub(crate) trait Lanes<T>:
     + Neg<Output = Self>
 {
     fn splat(value: T) -> Self;
+    /// Counts below 2^24, exactly.
+    fn of_counts(counts: [u32; 4]) -> Self;
     /// `self * factor + term`, rounded once where that costs nothing.
     fn times_plus(self, factor: Self, term: Self) -> Self;
     /// `exp(-self)` of values of at least 0.
@@ -40,6 +42,10 @@ impl Lanes<f32> for Vec4 {
     #[inline(always)]
     fn splat(value: f32) -> Self {
         Vec4::splat(value)
+    }
+    #[inline(always)]
+    fn of_counts([a, b, c, d]: [u32; 4]) -> Self {
+        Vec4::new(a as i32 as f32, b as i32 as f32, c as i32 as f32, d as i32 as f32)
     }
     #[inline(always)]
     fn times_plus(self, factor: Self, term: Self) -> Self {
@@ -79,6 +85,9 @@ fn each(x: DVec4, y: DVec4, f: impl Fn(f64, f64) -> f64) -> DVec4 {
 impl Lanes<f64> for DVec4 {
     fn splat(value: f64) -> Self {
         DVec4::splat(value)
+    }
+    fn of_counts([a, b, c, d]: [u32; 4]) -> Self {
+        DVec4::new(a.into(), b.into(), c.into(), d.into())
     }
     fn times_plus(self, factor: Self, term: Self) -> Self {
         self * factor + term

@@ -62,8 +62,9 @@ impl<T: Real> Place<T> {
 fn split<T: Real>(coordinate: T, knots: usize) -> (usize, T) {
     let last = T::of((knots - 1) as f64);
     let coordinate = coordinate.max(T::ZERO).min(last);
-    let knot = coordinate.whole().min(knots - 2);
-    (knot, coordinate - T::of(knot as f64))
+    // The last knot is the upper one of the last two.
+    let (knot, below) = coordinate.min(last - T::ONE).whole();
+    (knot, coordinate - below)
 }
 
 /// Knots of the density around the fibre, from the azimuth where unscattered light leaves first.
@@ -106,7 +107,7 @@ pub(crate) fn knot_below<T: Real>(sin: T) -> usize {
     let from_middle = sin.abs().min(T::ONE);
     let steps = T::of(EVEN) * from_middle + T::of(1.0 - EVEN) * (T::ONE - (T::ONE - from_middle).sqrt());
     let steps = if sin < T::ZERO { -steps } else { steps };
-    (T::of(0.5 * (ALONG - 1) as f64) * (steps + T::ONE)).max(T::ZERO).whole().min(ALONG - 2)
+    (T::of(0.5 * (ALONG - 1) as f64) * (steps + T::ONE)).max(T::ZERO).whole().0.min(ALONG - 2)
 }
 
 /// Distances from a knot to its neighbours; 0 where there is none.

@@ -1,8 +1,9 @@
 //! Light scattered by the medulla, at one hit: a mixture of the densities of four rows and their classes.
 
+use crate::lanes::Lanes;
 use crate::longitudinal::Inclination;
 use crate::medulla_grid::{ALONG, AROUND, CELLS, KNOTS, Place, STEP_AROUND, knot_below, reach};
-use crate::medulla_paths::{NODES, PathNode};
+use crate::medulla_paths::PathNode;
 use crate::medulla_row::{CLASS_SHARES, CLASSES};
 use crate::medulla_table::MedullaTable;
 use crate::real::{Real, four};
@@ -14,18 +15,29 @@ pub(crate) type Passed<T> = [[T; 4]; CLASSES];
 pub(crate) fn passed<T: Real>(table: &MedullaTable, row: usize, [cortex, medulla]: [[T; 3]; 2]) -> Passed<T> {
     four(|class| {
         let nodes = &table.nodes[row][class];
-        let channel = |c: usize| passed_through(nodes, cortex[c], medulla[c]);
+        // Four nodes at a time, the same for every channel.
+        let lanes = |from: usize, number: fn(&PathNode) -> f32| {
+            T::Four::from(four(|node| T::of(f64::from(number(&nodes[from + node])))))
+        };
+        let half = |from: usize| {
+            (
+                lanes(from, |node| node.cortex),
+                lanes(from, |node| node.medulla),
+                lanes(from, |node| node.share),
+            )
+        };
+        let halves = [half(0), half(4)];
+        let channel = |c: usize| {
+            let [low, high] = halves.map(|(in_cortex, in_medulla, share)| {
+                let depth =
+                    in_cortex.times_plus(T::Four::splat(cortex[c]), in_medulla * T::Four::splat(medulla[c]));
+                depth.exp_of_minus() * share
+            });
+            let [a, b, c, d]: [T; 4] = (low + high).into();
+            (a + b) + (c + d)
+        };
         let (red, green, blue) = (channel(0), channel(1), channel(2));
         [red, green, blue, red.max(green).max(blue)]
-    })
-}
-
-fn passed_through<T: Real>(nodes: &[PathNode; NODES], cortex: T, medulla: T) -> T {
-    let single = |number: f32| T::of(f64::from(number));
-    let depth = |node: usize| -(cortex * single(nodes[node].cortex) + medulla * single(nodes[node].medulla));
-    let (low, high) = (T::exp_four(four(depth)), T::exp_four(four(|node| depth(node + 4))));
-    (0..4).fold(T::ZERO, |sum, node| {
-        sum + single(nodes[node].share) * low[node] + single(nodes[node + 4].share) * high[node]
     })
 }
 
@@ -125,14 +137,19 @@ impl<'a, T: Real> Scattered<'a, T> {
     #[inline(always)]
     pub fn evaluate(&self, sin_theta_i: T, phi: T) -> [T; 4] {
         let knots = self.knots(sin_theta_i, phi);
-        let mut sum = [T::ZERO; 4];
-        for corner in 0..4 {
-            let density = self.densities(self.rows[corner], &knots);
-            for (part, density) in self.parts[corner].iter().zip(density) {
-                sum = four(|channel| sum[channel] + part[channel] * density);
-            }
-        }
-        sum
+        // Each corner by itself, and pairs of sums: the fewer wait for one another, the faster.
+        let low = self.corner(0, &knots) + self.corner(1, &knots);
+        let high = self.corner(2, &knots) + self.corner(3, &knots);
+        (low + high).into()
+    }
+
+    /// What [`Scattered::evaluate`] has from one row.
+    #[inline(always)]
+    fn corner(&self, corner: usize, knots: &Knots<T>) -> T::Four {
+        let densities: [T; 4] = self.densities(self.rows[corner], knots).into();
+        let parts = &self.parts[corner];
+        let part = |class: usize| T::Four::from(parts[class]) * T::Four::splat(densities[class]);
+        (part(0) + part(1)) + (part(2) + part(3))
     }
 
     #[inline(always)]
@@ -144,14 +161,16 @@ impl<'a, T: Real> Scattered<'a, T> {
             turn = if turn < T::ZERO { turn + T::TAU } else { turn };
         }
         let around = turn * T::of(1.0 / STEP_AROUND);
-        let column = around.whole();
-        let right = around - T::of(column as f64);
+        let (column, left) = around.whole();
+        let right = around - left;
         let sin = mirror_along * sin_theta_i;
         let line = knot_below(sin);
         let Span { below, inverse_step, heights } = &SPANS[line];
         let above = ((sin - T::of(*below)) * T::of(*inverse_step)).max(T::ZERO).min(T::ONE);
         let (low, high) = ((T::ONE - above) * T::of(heights[0]), above * T::of(heights[1]));
-        let (column, next) = (column % AROUND, (column + 1) % AROUND);
+        // A whole turn is none.
+        let column = if column < AROUND { column } else { 0 };
+        let next = if column + 1 < AROUND { column + 1 } else { 0 };
         let first = line * AROUND;
         Knots {
             entries: [first + column, first + next, first + AROUND + column, first + AROUND + next],
@@ -161,19 +180,19 @@ impl<'a, T: Real> Scattered<'a, T> {
 
     /// Density of each class of a row, per steradian.
     #[inline(always)]
-    fn densities(&self, row: usize, knots: &Knots<T>) -> [T; CLASSES] {
+    fn densities(&self, row: usize, knots: &Knots<T>) -> T::Four {
         let sums = &self.table.cumulative[row * CELLS..][..CELLS];
-        let mut density = [T::ZERO; CLASSES];
-        for corner in 0..4 {
+        let corner = |corner: usize| {
             let entry = knots.entries[corner];
             // The sum before the first is 0, and so is, as it is written, that of the last.
             let before = sums[if entry == 0 { CELLS - 1 } else { entry - 1 }];
             let upto = sums[entry];
-            let weight = knots.weights[corner];
-            density =
-                four(|class| density[class] + weight * T::of_count(upto[class].wrapping_sub(before[class])));
-        }
-        density
+            // In 32 bits, in which vectors are turned to floats; of which sums of 65536 count as 0.
+            let count = |class: usize| u32::from(upto[class]).wrapping_sub(before[class].into()) & 0xffff;
+            let counts = T::Four::of_counts(four(count));
+            counts * T::Four::splat(knots.weights[corner])
+        };
+        (corner(0) + corner(1)) + (corner(2) + corner(3))
     }
 
     /// The inclination and the azimuth of a direction drawn from three numbers in [0, 1): the first picks row and
@@ -181,7 +200,7 @@ impl<'a, T: Real> Scattered<'a, T> {
     /// lobe's chance.
     pub fn sample(&self, u: [T; 4]) -> (Inclination<T>, T) {
         let (corner, class) = self.chosen(u[0] * self.chance);
-        let entry = self.entry(self.rows[corner], class, (u[1] * T::of(65536.0)).whole().min(65535));
+        let entry = self.entry(self.rows[corner], class, (u[1] * T::of(65536.0)).whole().0.min(65535));
         let line = entry / AROUND;
         let [mirror_around, mirror_along] = self.mirrors;
         let sin = T::of(KNOTS[line]) + slanted_tent(u[2], reach(line));
@@ -191,21 +210,15 @@ impl<'a, T: Real> Scattered<'a, T> {
         (Inclination { sin, cos }, self.centre + mirror_around * turn)
     }
 
-    fn chosen(&self, mut left: T) -> (usize, usize) {
-        let mut last = (0, 0);
-        for corner in 0..4 {
-            for class in 0..CLASSES {
-                let chance = self.parts[corner][class][3];
-                if chance > T::ZERO {
-                    last = (corner, class);
-                    if left < chance {
-                        return last;
-                    }
-                    left = left - chance;
-                }
-            }
-        }
-        last
+    /// The corner and class that a part of the chance falls on.
+    fn chosen(&self, left: T) -> (usize, usize) {
+        let chances = four(|corner| four(|class| self.parts[corner][class][3]));
+        let sums = four(|corner| {
+            let [a, b, c, d] = chances[corner];
+            (a + b) + (c + d)
+        });
+        let (corner, left) = counted(sums, left);
+        (corner, counted(chances[corner], left).0)
     }
 
     /// The entry that a count below 65536 falls on: the first whose sum is above it.
@@ -213,6 +226,22 @@ impl<'a, T: Real> Scattered<'a, T> {
         let sums = &self.table.cumulative[row * CELLS..][..CELLS - 1];
         sums.partition_point(|sum| usize::from(sum[class]) <= count)
     }
+}
+
+/// Which of four chances a number falls on, the last there is when rounding leaves none, and by how much it
+/// is past those before. Counted and not searched: no branch of it could be foreseen.
+#[inline(always)]
+fn counted<T: Real>(chances: [T; 4], left: T) -> (usize, T) {
+    let [a, b, c, _] = chances;
+    let before = [T::ZERO, a, a + b, a + b + c];
+    let past =
+        usize::from(left >= before[1]) + usize::from(left >= before[2]) + usize::from(left >= before[3]);
+    let chosen = if chances[past] > T::ZERO {
+        past
+    } else {
+        chances.iter().rposition(|&chance| chance > T::ZERO).unwrap_or(0)
+    };
+    (chosen, left - before[chosen])
 }
 
 /// A number in [-1, 1] by the density `1 - |x|`.

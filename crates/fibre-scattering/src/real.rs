@@ -34,10 +34,8 @@ pub(crate) trait Real:
     type Four: Lanes<Self>;
 
     fn of(value: f64) -> Self;
-    /// A count, exactly.
-    fn of_count(count: u16) -> Self;
-    /// The whole part of a value of at least 0.
-    fn whole(self) -> usize;
+    /// The whole part of a value of at least 0 and below 2^31, to count with and to reckon with.
+    fn whole(self) -> (usize, Self);
     /// The same in double precision.
     fn double(self) -> f64;
     fn abs(self) -> Self;
@@ -49,8 +47,6 @@ pub(crate) trait Real:
     fn asin(self) -> Self;
     fn atan2(self, x: Self) -> Self;
     fn sin_cos(self) -> (Self, Self);
-    /// `exp(x)` of each `x <= 0`.
-    fn exp_four(x: [Self; 4]) -> [Self; 4];
 }
 
 macro_rules! real {
@@ -71,12 +67,10 @@ macro_rules! real {
                 f64::from(self)
             }
             #[inline(always)]
-            fn of_count(count: u16) -> Self {
-                $real::from(count)
-            }
-            #[inline(always)]
-            fn whole(self) -> usize {
-                self as usize
+            fn whole(self) -> (usize, Self) {
+                // Through 32 bits with a sign, the only whole numbers vector units turn to and from.
+                let whole = self as i32;
+                (whole as usize, whole as $real)
             }
             #[inline(always)]
             fn abs(self) -> Self {
@@ -110,10 +104,6 @@ macro_rules! real {
             fn sin_cos(self) -> (Self, Self) {
                 let (sin, cos) = Lanes::sin_cos($four::splat(self));
                 (sin.x, cos.x)
-            }
-            #[inline(always)]
-            fn exp_four(x: [Self; 4]) -> [Self; 4] {
-                Lanes::exp_of_minus(-$four::from(x)).into()
             }
         }
     };
