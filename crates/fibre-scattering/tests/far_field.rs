@@ -185,10 +185,10 @@ fn samples_follow_the_density_and_are_what_evaluation_says() {
             let (theta, phi) =
                 ((index / AROUND) as f64 * step.0 - FRAC_PI_2, (index % AROUND) as f64 * step.1 - PI);
             for (part_theta, part_phi) in
-                (0..4).flat_map(|i| (0..2).map(move |j| (f64::from(i), f64::from(j))))
+                (0..2).flat_map(|i| (0..2).map(move |j| (f64::from(i), f64::from(j))))
             {
-                let (low, left) = (theta + part_theta * step.0 / 4.0, phi + part_phi * step.1 / 2.0);
-                *cell += gauss(low, low + step.0 / 4.0, |t| {
+                let (low, left) = (theta + part_theta * step.0 / 2.0, phi + part_phi * step.1 / 2.0);
+                *cell += gauss(low, low + step.0 / 2.0, |t| {
                     t.cos()
                         * gauss(left, left + step.1 / 2.0, |x| {
                             f64::from(scatter.pdf(single(support::direction(t, x))))
