@@ -103,6 +103,13 @@ pub struct MedullaTable {
 }
 
 impl MedullaTable {
+    /// Sines of the inclinations, and the step of the azimuth from TT's, between which the density of the
+    /// scattered lobe is linear: where a quadrature must begin anew.
+    #[must_use]
+    pub fn knots() -> (&'static [f64], f64) {
+        (&crate::medulla_grid::KNOTS, crate::medulla_grid::STEP_AROUND)
+    }
+
     /// What it was made for.
     #[must_use]
     pub fn key(&self) -> &MedullaKey {

@@ -2,7 +2,7 @@
 
 use std::f64::consts::{FRAC_PI_8, PI, TAU};
 
-use fibre_scattering::{FurParameters, HairParameters};
+use fibre_scattering::{FurParameters, HairParameters, MedullaTable};
 
 use crate::quadrature::Peak;
 use crate::random::Random;
@@ -36,12 +36,21 @@ impl Landmarks {
         for (theta, sigma) in thetas.into_iter().zip(spreads) {
             landmarks.along.push(Peak { centre: theta, width: 0.7 * sigma });
         }
-        for phi in phis {
+        for phi in phis.map(|phi| phi + view.phi_o) {
             landmarks.around.push(Peak { centre: phi, width: s });
             // The trimmed density bends where its two ends meet.
             landmarks.around_kinks.push(wrapped(phi + PI));
         }
         landmarks
+    }
+
+    /// Adds the knots of a medulla's table, at which the scattered lobe bends.
+    pub fn add_medulla(&mut self, parameters: &HairParameters, view: View) {
+        let (sines, step) = MedullaTable::knots();
+        self.along_kinks.extend(sines.iter().flat_map(|sine| [sine.asin(), -sine.asin()]));
+        let first = lobe_azimuths(parameters, view)[1] + view.phi_o;
+        let steps = (TAU / step).round() as u32;
+        self.around_kinks.extend((0..steps).map(|knot| first + step * f64::from(knot)));
     }
 
     /// Looks where `scatterer` sends light: a peak at each sextile of each lobe, both ways.

@@ -1,6 +1,8 @@
 //! What the checks ask of a model: so little that another one, or a broken one, can be put in its place.
 
-use fibre_scattering::{Absorption, FibreSample, FibreScatter, FurParameters, LobeValues, ReferenceScatter};
+use fibre_scattering::{
+    Absorption, FibreSample, FibreScatter, FurParameters, FurReferenceScatter, LobeValues, ReferenceScatter,
+};
 use glam::Vec3;
 
 use crate::landmarks::Landmarks;
@@ -8,8 +10,10 @@ use crate::landmarks::Landmarks;
 /// A direction a fibre is seen from, and where across it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct View {
-    /// Inclination of the outgoing direction, in radians; its azimuth is 0.
+    /// Inclination of the outgoing direction, in radians.
     pub theta_o: f64,
+    /// Its azimuth, in radians: of account for elliptical fibres only, 0 for others.
+    pub phi_o: f64,
     /// Offset across the fibre, in -1..1.
     pub h: f64,
 }
@@ -18,19 +22,27 @@ impl View {
     /// From an inclination in degrees.
     #[must_use]
     pub fn degrees(theta_o: f64, h: f64) -> View {
-        View { theta_o: theta_o.to_radians(), h }
+        View { theta_o: theta_o.to_radians(), phi_o: 0.0, h }
+    }
+
+    /// The same view from another azimuth, in degrees.
+    #[must_use]
+    pub fn turned(self, phi_o: f64) -> View {
+        View { phi_o: phi_o.to_radians(), ..self }
     }
 
     /// The outgoing direction as the model is given it, in single precision.
     #[must_use]
     pub fn wo(&self) -> Vec3 {
-        narrow(direction(self.theta_o, 0.0))
+        narrow(direction(self.theta_o, self.phi_o))
     }
 
     /// In words, for tables: `theta 30°, h 0.5`.
     #[must_use]
     pub fn words(&self) -> String {
-        format!("theta {}°, h {}", round(self.theta_o.to_degrees(), 1e6), round(self.h, 1e6))
+        let (theta, phi) = (round(self.theta_o.to_degrees(), 1e6), round(self.phi_o.to_degrees(), 1e6));
+        let turned = if phi == 0.0 { String::new() } else { format!(", phi {phi}°") };
+        format!("theta {theta}°{turned}, h {}", round(self.h, 1e6))
     }
 }
 
@@ -101,6 +113,12 @@ impl Scatterer for FibreScatter<'_> {
 impl DoubleScatterer for ReferenceScatter {
     fn evaluate_with_pdf(&self, wi: [f64; 3]) -> ([[f64; 3]; 5], f64) {
         ReferenceScatter::evaluate_with_pdf(self, wi)
+    }
+}
+
+impl DoubleScatterer for FurReferenceScatter<'_> {
+    fn evaluate_with_pdf(&self, wi: [f64; 3]) -> ([[f64; 3]; 5], f64) {
+        FurReferenceScatter::evaluate_with_pdf(self, wi)
     }
 }
 

@@ -66,7 +66,7 @@ fn of_nodes(
 ) -> Result<FarField, VerificationError> {
     let far = FarFieldBcsdf::new(&parameters.hair, nodes)?;
     let evaluate = |theta_o: f64, wi: [f64; 3]| {
-        let wo = View { theta_o, h: 0.0 }.wo();
+        let wo = View { theta_o, phi_o: 0.0, h: 0.0 }.wo();
         let values = far.at(wo, absorption).evaluate_with_pdf(narrow(wi)).0;
         f64::from(values.sum().element_sum()) / 3.0
     };

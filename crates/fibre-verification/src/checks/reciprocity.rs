@@ -36,7 +36,7 @@ pub(crate) fn over_offsets(model: &dyn Model, theta_o: f64, f: impl Fn(View) -> 
     let scale = azimuthal_scale(&model.parameters().hair);
     let count = (4.0 / scale).clamp(12.0, 2000.0) as u32;
     let edges: Vec<f64> = (0..=count).map(|i| -FRAC_PI_2 + PI * f64::from(i) / f64::from(count)).collect();
-    0.5 * integral(&edges, |gamma| gamma.cos() * f(View { theta_o, h: gamma.sin() }))
+    0.5 * integral(&edges, |gamma| gamma.cos() * f(View { theta_o, phi_o: 0.0, h: gamma.sin() }))
 }
 
 /// Exchanges the two directions of `pairs` random pairs.
@@ -63,8 +63,9 @@ pub fn reciprocity(model: &dyn Model, absorption: Absorption, pairs: u32, seed: 
         push(1, there, back);
         push(2, there / theta_i.cos(), back / theta_o.cos());
         push(0, averaged(theta_o, -theta_o, phi), averaged(-theta_o, theta_o, -phi));
-        let fixed =
-            |theta_o, theta_i, phi| value(model, View { theta_o, h }, absorption, direction(theta_i, phi));
+        let fixed = |theta_o, theta_i, phi| {
+            value(model, View { theta_o, phi_o: 0.0, h }, absorption, direction(theta_i, phi))
+        };
         push(3, fixed(theta_o, theta_i, phi), fixed(theta_i, theta_o, -phi));
     }
     let [level, any, any_f, near] = sums.map(|(off, mean)| if mean > 0.0 { off / mean } else { 0.0 });

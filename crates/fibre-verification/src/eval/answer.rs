@@ -1,6 +1,6 @@
 //! What the model says of a row.
 
-use fibre_scattering::{FurParameters, ReferenceBcsdf};
+use fibre_scattering::FurParameters;
 
 use super::row::Row;
 use crate::error::VerificationError;
@@ -62,14 +62,11 @@ impl Answers {
         let (values, pdf) = scatter.evaluate_with_pdf(narrow(wi));
         let lobes = values.0.map(|value| value.to_array().map(f64::from));
         let single = Answer { lobes, pdf: f64::from(pdf) };
-        Ok(Both { single, double: double(row, wo, wi)? })
+        let double = subject.double_of(wo, row.h, subject.absorption());
+        let double = double.map(|double| {
+            let (lobes, pdf) = double.evaluate_with_pdf(wi);
+            Answer { lobes, pdf }
+        });
+        Ok(Both { single, double })
     }
-}
-
-fn double(row: &Row, wo: [f64; 3], wi: [f64; 3]) -> Result<Option<Answer>, VerificationError> {
-    if row.parameters.medulla.scatters() {
-        return Ok(None);
-    }
-    let (lobes, pdf) = ReferenceBcsdf::new(&row.parameters.hair)?.at(wo, row.h).evaluate_with_pdf(wi);
-    Ok(Some(Answer { lobes, pdf }))
 }

@@ -19,6 +19,7 @@ pub(crate) fn html(report: &Report) -> String {
     sampling(&mut page, report);
     light(&mut page, report);
     far_field(&mut page, report);
+    five_lobe(&mut page, report);
     page.finish()
 }
 
@@ -249,6 +250,27 @@ fn far_field(page: &mut Document, report: &Report) {
                 cell(&figure(far.error)),
                 cell(&format!("{:.0}", far.nanoseconds)),
             ]
+        }),
+    );
+}
+
+fn five_lobe(page: &mut Document, report: &Report) {
+    if report.five_lobe.is_empty() {
+        return;
+    }
+    page.heading("The five-lobe model of Yan et al. 2017 beside the whole fibre");
+    page.note("Albedo averaged over the offset. Without absorption it must be 1. The five-lobe model leaves out that a fifth to a half of the scattered light is reflected back inside on its way out, so with pigment it is brighter than a fibre is.");
+    page.table(
+        &["model", "theta", "without absorption", "red", "green", "blue", ""],
+        report.five_lobe.iter().map(|row| {
+            let mut cells = vec![
+                word(&row.model),
+                cell(&format!("{}°", row.theta_o)),
+                cell(&format!("{:.4}", row.white)),
+            ];
+            cells.extend(row.albedo.map(|value| cell(&format!("{value:.4}"))));
+            cells.push(chip(row.albedo));
+            cells
         }),
     );
 }

@@ -9,7 +9,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use crate::checks::FarField;
+use crate::checks::{FarField, FiveLobe};
 use crate::error::VerificationError;
 use crate::scatterer::Model;
 use crate::verdict::{Check, Verdict};
@@ -64,6 +64,8 @@ pub struct Report {
     pub light: Vec<LightRow>,
     /// The far field by nodes.
     pub far_field: Vec<FarField>,
+    /// The five-lobe model of Yan et al. beside the whole fibre, for fur.
+    pub five_lobe: Vec<FiveLobe>,
     /// What is plotted.
     pub curves: Curves,
 }
@@ -95,6 +97,7 @@ impl Report {
         } else {
             Vec::new()
         };
+        let five_lobe = if settings.quick { Vec::new() } else { crate::checks::five_lobe(model)? };
         tick();
         let checks = judged::checks(model, &white, &colored, &goodness, &light, settings);
         let mut about = BTreeMap::new();
@@ -113,6 +116,7 @@ impl Report {
             weights: goodness.iter().map(WeightRow::new).collect(),
             light: light.iter().map(LightRow::new).collect(),
             far_field,
+            five_lobe,
             curves: Curves::of(model),
         })
     }
