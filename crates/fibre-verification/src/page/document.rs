@@ -10,7 +10,7 @@ h1{margin-bottom:.3rem}h2{margin-top:2.2rem;border-bottom:1px solid #ccc;padding
 svg{max-width:100%;height:auto}\
 figure{margin:0 0 1rem}figcaption,.note{color:#555;max-width:46rem}\
 .grid{stroke:#ddd;fill:none}.guide{stroke:#888;stroke-dasharray:6 4}svg .note{fill:#666}\
-.row{display:grid;grid-template-columns:repeat(auto-fit,minmax(13rem,1fr));gap:.5rem}\
+.row{display:grid;grid-template-columns:repeat(4,1fr);gap:.5rem}@media screen and (max-width:50rem){.row{grid-template-columns:repeat(2,1fr)}}\
 .scroll{overflow-x:auto}\
 table{border-collapse:collapse;font-variant-numeric:tabular-nums;font-size:14px}\
 th,td{padding:.18rem .6rem;border-bottom:1px solid #ddd;text-align:right;vertical-align:top}\
