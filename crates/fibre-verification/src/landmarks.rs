@@ -138,6 +138,16 @@ pub fn wrapped(angle: f64) -> f64 {
 /// Narrowest width of any lobe, in radians: how far rounding a direction moves values.
 #[must_use]
 pub fn narrowest(parameters: &FurParameters) -> f64 {
-    let along = lobe_deviations(&parameters.hair).into_iter().fold(f64::INFINITY, f64::min);
-    along.min(azimuthal_scale(&parameters.hair))
+    let hair = &parameters.hair;
+    let of = |hair: &HairParameters| {
+        let along = lobe_deviations(hair).into_iter().fold(f64::INFINITY, f64::min);
+        along.min(azimuthal_scale(hair))
+    };
+    // The film's surface has a roughness of its own.
+    let film = hair.film.map(|film| HairParameters {
+        beta_m: film.roughness,
+        beta_n: film.roughness,
+        ..HairParameters::default()
+    });
+    film.map_or(f64::INFINITY, |film| of(&film)).min(of(hair))
 }

@@ -101,7 +101,7 @@ fn nan_as_infinite(worst: f64, found: &[f64]) -> f64 {
 /// How far single precision may be off where light goes. A lobe of the width w changes by a part of its value in
 /// a part of w: directions and angles, rounded to some 2^-24 of half a turn, move its flank by their ratio.
 fn value_bound(subject: &Subject) -> f64 {
-    1e-4 + 2e-6 / narrowest(subject.parameters())
+    1e-4 + 4e-7 / narrowest(subject.parameters())
 }
 
 fn faults(row: &StabilityRow) -> Vec<String> {

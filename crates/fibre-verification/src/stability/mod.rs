@@ -152,7 +152,7 @@ fn checks(rows: &[StabilityRow]) -> Vec<Check> {
     let chances: Vec<f64> = rows.iter().map(|row| row.p).collect();
     vec![
         most("Single precision against double: value", "relative error", &|r| r.value_error.unwrap_or(0.0), "value")
-            .because("where samples go; the bound of a case is 1e-4 plus 2e-6 over its narrowest lobe's width"),
+            .because("where samples go; the bound of a case is 1e-4 plus 4e-7 over its narrowest lobe's width"),
         most("Single precision against double: density", "relative error", &|r| r.pdf_error.unwrap_or(0.0), "density's value"),
         most("Without absorption all light returns", "|1 - albedo|", &|r| r.energy_error, "energy")
             .because("bound 1e-4 for hair, 1e-3 for fur"),
