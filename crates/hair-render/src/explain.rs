@@ -18,7 +18,9 @@ pub struct LeftOut {
 pub fn explain(description: &SceneDescription, settings: &RenderSettings) -> Vec<LeftOut> {
     let mut list = List(Vec::new());
     list.add("motion in the tree", "nothing moves within a frame: boxes and points are held once");
-    list.add("medulla tables", "the fibres are hair without a medulla");
+    if !description.hair.iter().any(|object| object.material.fibre.medulla.scatters()) {
+        list.add("medulla tables", "no fibre has a medulla that scatters");
+    }
     if description.meshes.is_empty() {
         list.add("triangles in the tree", "the scene has no mesh");
     }
@@ -62,6 +64,13 @@ fn hair(index: usize, object: &HairObject, list: &mut List) {
             format!("one colour serves all strands: {bytes} bytes saved"),
         );
     }
+    let parameters = &object.material.fibre.parameters;
+    if parameters.aspect == 1.0 {
+        list.add(
+            format!("hair {index}: an axis by strand"),
+            format!("the fibres are round: {} bytes saved", 12 * object.groom.strand_count()),
+        );
+    }
     let transparent = object.groom.attribute(names::TRANSPARENCY).is_some_and(some_are_clear);
     if transparent && object.material.transparency == Transparency::Ignored {
         list.add(
@@ -69,9 +78,7 @@ fn hair(index: usize, object: &HairObject, list: &mut List) {
             "fibres already let light through by refraction; ask for it to be obeyed",
         );
     }
-    for (lobe, weight) in
-        fibre_scattering::Lobe::ALL.into_iter().zip(object.material.fibre.parameters.lobe_weights)
-    {
+    for (lobe, weight) in fibre_scattering::Lobe::ALL.into_iter().zip(parameters.lobe_weights) {
         if weight == 0.0 {
             list.add(
                 format!("hair {index}: the {} lobe", lobe.name()),
@@ -100,6 +107,7 @@ fn passes(settings: &RenderSettings, list: &mut List) {
 
 #[cfg(test)]
 mod tests {
+    use fibre_scattering::Medulla;
     use glam::Vec3;
 
     use super::*;
@@ -126,6 +134,10 @@ mod tests {
             assert!(whats.iter().any(|w| w == what), "{whats:?}");
         }
         assert!(!whats.iter().any(|w| w.ends_with("pass")));
+        assert!(whats.iter().any(|w| w == "medulla tables"));
+        let mut fur = description.clone();
+        fur.hair[0].material.fibre.medulla = Medulla { kappa: 0.5, sigma_s: 2.0, ..Medulla::NONE };
+        assert!(!told(&fur, &all).iter().any(|w| w == "medulla tables"));
         description.environment = Some(Environment::studio(8).unwrap());
         assert!(!told(&description, &all).iter().any(|w| w == "the environment's table"));
         assert!(told(&description, &RenderSettings::default()).iter().any(|w| w == "the TT pass"));

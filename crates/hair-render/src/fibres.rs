@@ -8,7 +8,7 @@ use strand_tracing::{Hit, HitKind, Primitive};
 
 use crate::fibre_hit::FibrePoint;
 use crate::models::Models;
-use crate::{HairMaterial, RenderError, Transparency};
+use crate::{HairMaterial, RenderError, TableUse, Transparency};
 
 /// The material of a groom's fibres, looked up by hit.
 #[derive(Debug)]
@@ -45,6 +45,11 @@ impl Fibres {
         let offsets = if by_vertex { groom.offsets().to_vec() } else { Vec::new() };
         let fixed_offset = material.fixed_offset;
         Ok(Fibres { models, absorption, transparency, fixed_offset, beta_n, major_axes, offsets })
+    }
+
+    /// The medulla's table, where there is one.
+    pub fn table(&self) -> Option<&TableUse> {
+        self.models.table()
     }
 
     /// How likely a ray passes the fibre untouched at this hit.

@@ -63,6 +63,7 @@ mod scene;
 mod settings;
 mod studio;
 mod surface;
+mod table_use;
 mod tone_map;
 
 pub use aov::{Aov, AovSet};
@@ -85,4 +86,5 @@ pub use render::render;
 pub use scene::Scene;
 pub use settings::{Background, LightSampling, RenderSettings};
 pub use studio::{STUDIO_WIDTH, write_studio};
+pub use table_use::TableUse;
 pub use tone_map::{Backdrop, Curve, Preview, ToneMapping, tone_map};

@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use fibre_material::{Dressed, Field};
 use fibre_scattering::{
-    FarFieldBcsdf, FibreBcsdf, FurBcsdf, FurParameters, HairBcsdf, HairParameters, MedullaKey, MedullaTable,
-    ScatteringError,
+    FarFieldBcsdf, FibreBcsdf, FurBcsdf, FurParameters, HairBcsdf, HairParameters, ScatteringError,
 };
+use medulla_tables::Found;
 
-use crate::RenderError;
+use crate::{RenderError, TableUse};
 
 /// Prepared models, and which one each strand has.
 #[derive(Debug)]
@@ -17,6 +17,7 @@ pub(crate) struct Models {
     prepared: Vec<FibreBcsdf>,
     /// Index into `prepared` by strand; empty where one model serves all.
     by_strand: Vec<u32>,
+    table: Option<TableUse>,
 }
 
 impl Models {
@@ -24,9 +25,10 @@ impl Models {
     pub fn new(object: usize, dressed: &Dressed) -> Result<Models, RenderError> {
         let refused = |source: ScatteringError| RenderError::Scattering { object, source };
         let maker = Maker::new(object, &dressed.parameters, dressed.field)?;
+        let table = maker.table(object);
         let Some(roughness) = &dressed.roughness else {
             let only = maker.make(dressed.parameters.hair).map_err(refused)?;
-            return Ok(Models { prepared: vec![only], by_strand: Vec::new() });
+            return Ok(Models { prepared: vec![only], by_strand: Vec::new(), table });
         };
         let mut prepared = Vec::new();
         let mut known = HashMap::new();
@@ -51,7 +53,12 @@ impl Models {
             // A groom without strands.
             prepared.push(maker.make(dressed.parameters.hair).map_err(refused)?);
         }
-        Ok(Models { prepared, by_strand })
+        Ok(Models { prepared, by_strand, table })
+    }
+
+    /// The medulla's table, where there is one.
+    pub fn table(&self) -> Option<&TableUse> {
+        self.table.as_ref()
     }
 
     /// The model of a strand.
@@ -73,7 +80,7 @@ struct Maker<'a> {
 enum Kind {
     Hair,
     Far { nodes: u32 },
-    Fur(Option<Arc<MedullaTable>>),
+    Fur(Option<Found>),
 }
 
 impl<'a> Maker<'a> {
@@ -86,21 +93,29 @@ impl<'a> Maker<'a> {
             }
             Field::Far { nodes } => Kind::Far { nodes },
             Field::Near if fur => {
-                let table = MedullaKey::needed(parameters).map(|key| medulla_tables::table(&key)).transpose();
-                Kind::Fur(table.map_err(|source| RenderError::Table { object, source })?)
+                let found = medulla_tables::needed(parameters);
+                Kind::Fur(found.map_err(|source| RenderError::Table { object, source })?)
             }
             Field::Near => Kind::Hair,
         };
         Ok(Maker { parameters, kind })
     }
 
+    fn table(&self, object: usize) -> Option<TableUse> {
+        match &self.kind {
+            Kind::Fur(Some(found)) => Some(TableUse::new(object, found)),
+            _ => None,
+        }
+    }
+
     fn make(&self, hair: HairParameters) -> Result<FibreBcsdf, ScatteringError> {
         Ok(match &self.kind {
             Kind::Hair => FibreBcsdf::Hair(HairBcsdf::new(&hair)?),
             Kind::Far { nodes } => FibreBcsdf::FarField(FarFieldBcsdf::new(&hair, *nodes)?),
-            Kind::Fur(table) => {
+            Kind::Fur(found) => {
+                let table = found.as_ref().map(|found| Arc::clone(&found.table));
                 let parameters = FurParameters { hair, ..*self.parameters };
-                FibreBcsdf::Fur(FurBcsdf::new(&parameters, table.clone())?)
+                FibreBcsdf::Fur(FurBcsdf::new(&parameters, table)?)
             }
         })
     }

@@ -7,7 +7,7 @@ use strand_tracing::{BuildOptions, Radii, Strands, Tracer, Triangles};
 use crate::fibres::Fibres;
 use crate::lights::Lights;
 use crate::surface::Surface;
-use crate::{Bounds, HairObject, MeshObject, RenderError, SceneDescription};
+use crate::{Bounds, HairObject, MeshObject, RenderError, SceneDescription, TableUse};
 
 /// A scene ready to be rendered, any number of times and from any number of threads.
 #[derive(Debug)]
@@ -64,6 +64,11 @@ impl Scene {
     #[must_use]
     pub fn tracing_statistics(&self) -> &strand_tracing::Statistics {
         self.tracer.statistics()
+    }
+
+    /// The medulla tables of the scene's fur; none for hair.
+    pub fn medulla_tables(&self) -> impl Iterator<Item = &TableUse> {
+        self.fibres.iter().filter_map(Fibres::table)
     }
 
     /// Turns the environment to stand at `angle` radians (see [`crate::Environment::rotated`]) without

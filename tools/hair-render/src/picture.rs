@@ -8,7 +8,7 @@ use command_line::{Bar, Outcome};
 use glam::{DVec3, Vec3};
 use hair_render::{
     Aov, AovSet, Backdrop, Background, Camera, ColorMatch, ColorMatching, Frame, FrameReport, Metadata,
-    Precision, Progress, Reach, RenderError, RenderSettings, Scene, SceneDescription, ToneMapping,
+    Precision, Progress, Reach, RenderError, RenderSettings, Scene, SceneDescription, TableUse, ToneMapping,
     check_output, tone_map,
 };
 
@@ -54,6 +54,7 @@ pub fn render(args: &Args) -> Result<Outcome> {
         }
     }
     let mut scene = Scene::build(description)?;
+    tables(&scene, args.explain);
     let camera = scene::camera(&args.view, &scene)?;
     command_line::on_interrupt_ask();
     let color_match = match args.fibre.color.filter(|_| args.fibre.match_color) {
@@ -65,8 +66,24 @@ pub fn render(args: &Args) -> Result<Outcome> {
     };
     let Some(frame) = trace(&scene, &camera, &settings)? else { return Ok(Outcome::Interrupted) };
     write(args, output, camera, &frame)?;
-    report(args, &frame, color_match, output)?;
+    report(args, &frame, &scene, color_match, output)?;
     Ok(Outcome::Good)
+}
+
+/// Tells where the medulla tables came from, if that was asked for, and what was wrong with their cache.
+fn tables(scene: &Scene, explain: bool) {
+    for table in scene.medulla_tables() {
+        if let Some(fault) = &table.cache_fault {
+            say(&format!("warning: {fault}"));
+        }
+        if explain {
+            let source = match table.built_seconds {
+                Some(seconds) => format!("built in {seconds:.2} s"),
+                None => format!("taken from {}", table.source),
+            };
+            say(&format!("hair {}: medulla table {source}, {} bytes", table.object, table.bytes));
+        }
+    }
 }
 
 /// Gives the hair the absorption that makes it `color`, and says how that went; `None` when Ctrl-C
@@ -168,9 +185,17 @@ struct Report<'a> {
     frame: &'a FrameReport,
     #[serde(skip_serializing_if = "Option::is_none")]
     color_match: Option<ColorMatch>,
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    medulla_tables: Vec<TableUse>,
 }
 
-fn report(args: &Args, frame: &Frame, color_match: Option<ColorMatch>, output: &Path) -> Result<()> {
+fn report(
+    args: &Args,
+    frame: &Frame,
+    scene: &Scene,
+    color_match: Option<ColorMatch>,
+    output: &Path,
+) -> Result<()> {
     let report = &frame.report;
     let error = match report.relative_error {
         Some(error) => format!("estimated relative error {:.2} %", 100.0 * error),
@@ -181,7 +206,11 @@ fn report(args: &Args, frame: &Frame, color_match: Option<ColorMatch>, output: &
         say(&format!("warning: {} samples were not finite and count as black", report.rejected_samples));
     }
     if args.json {
-        let mut json = serde_json::to_string_pretty(&Report { frame: report, color_match })?;
+        let mut json = serde_json::to_string_pretty(&Report {
+            frame: report,
+            color_match,
+            medulla_tables: scene.medulla_tables().cloned().collect(),
+        })?;
         json.push('\n');
         std::io::stdout().lock().write_all(json.as_bytes())?;
     }
