@@ -23,6 +23,8 @@ pub(crate) struct Fibres {
     major_axes: Vec<Vec3>,
     /// Only kept where something varies by vertex.
     offsets: Vec<u32>,
+    /// Strands and points of the groom.
+    counts: (usize, usize),
 }
 
 impl Fibres {
@@ -44,7 +46,13 @@ impl Fibres {
             matches!(absorption, Varying::Vertex(_)) || matches!(transparency, Some(Varying::Vertex(_)));
         let offsets = if by_vertex { groom.offsets().to_vec() } else { Vec::new() };
         let fixed_offset = material.fixed_offset;
-        Ok(Fibres { models, absorption, transparency, fixed_offset, beta_n, major_axes, offsets })
+        let counts = (groom.strand_count(), groom.point_count());
+        Ok(Fibres { models, absorption, transparency, fixed_offset, beta_n, major_axes, offsets, counts })
+    }
+
+    /// Strands and points of the groom.
+    pub fn counts(&self) -> (usize, usize) {
+        self.counts
     }
 
     /// The medulla's table, where there is one.

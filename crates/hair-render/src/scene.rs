@@ -7,7 +7,7 @@ use strand_tracing::{BuildOptions, Radii, Strands, Tracer, Triangles};
 use crate::fibres::Fibres;
 use crate::lights::Lights;
 use crate::surface::Surface;
-use crate::{Bounds, HairObject, MeshObject, RenderError, SceneDescription, TableUse};
+use crate::{Bounds, HairMaterial, HairObject, MeshObject, RenderError, SceneDescription, TableUse};
 
 /// A scene ready to be rendered, any number of times and from any number of threads.
 #[derive(Debug)]
@@ -64,6 +64,38 @@ impl Scene {
     #[must_use]
     pub fn tracing_statistics(&self) -> &strand_tracing::Statistics {
         self.tracer.statistics()
+    }
+
+    /// Gives a groom of the scene another material, and keeps the tree: for looking at many. `groom` is the
+    /// one that object `object` was built from.
+    ///
+    /// # Errors
+    /// [`RenderError::Argument`] for an object that is not there or a groom of other counts; what is wrong with
+    /// the material as [`Scene::build`]. The scene is then as it was.
+    pub fn set_material(
+        &mut self,
+        object: usize,
+        groom: &Groom,
+        material: &HairMaterial,
+    ) -> Result<(), RenderError> {
+        let count = self.fibres.len();
+        let Some(place) = self.fibres.get_mut(object) else {
+            return Err(RenderError::argument(
+                "hair object",
+                format!("{object} of {count}"),
+                "one of the scene's",
+            ));
+        };
+        if place.counts() != (groom.strand_count(), groom.point_count()) {
+            let found = format!("{} strands, {} points", groom.strand_count(), groom.point_count());
+            return Err(RenderError::argument(
+                "groom to dress",
+                found,
+                "as many as the scene was built with",
+            ));
+        }
+        *place = Fibres::new(object, groom, material)?;
+        Ok(())
     }
 
     /// The medulla tables of the scene's fur; none for hair.
