@@ -153,7 +153,8 @@ fn search(
     loop {
         let seen = look(sigma)?;
         probes += 1;
-        progress.advance(u64::from(probes), u64::from(matching.max_probes));
+        // The last of them is told once it is known to be the last.
+        progress.advance(u64::from(probes - 1), u64::from(matching.max_probes));
         if seen.coverage <= 0.0 {
             return Err(RenderError::argument(
                 "colour to match",
@@ -168,6 +169,8 @@ fn search(
         }
         let settled = channels.iter().all(Channel::is_settled);
         if settled || probes >= matching.max_probes {
+            let all = u64::from(matching.max_probes);
+            progress.advance(all, all);
             return Ok(ColorMatch {
                 wanted: wanted.to_array(),
                 absorption: sigma.to_array(),

@@ -17,6 +17,8 @@ pub(crate) struct Fibres {
     absorption: Varying<Absorption>,
     transparency: Option<Varying<f32>>,
     fixed_offset: Option<f32>,
+    /// Whether the medulla absorbs as the cortex does.
+    medulla_as_cortex: bool,
     /// Roughness around the fibre, of the material as a whole.
     beta_n: f32,
     /// For each strand, roughly where the larger axis of its cross-section points; empty for round fibres.
@@ -46,8 +48,19 @@ impl Fibres {
             matches!(absorption, Varying::Vertex(_)) || matches!(transparency, Some(Varying::Vertex(_)));
         let offsets = if by_vertex { groom.offsets().to_vec() } else { Vec::new() };
         let fixed_offset = material.fixed_offset;
+        let medulla_as_cortex = material.fibre.medulla_as_cortex;
         let counts = (groom.strand_count(), groom.point_count());
-        Ok(Fibres { models, absorption, transparency, fixed_offset, beta_n, major_axes, offsets, counts })
+        Ok(Fibres {
+            models,
+            absorption,
+            transparency,
+            fixed_offset,
+            medulla_as_cortex,
+            beta_n,
+            major_axes,
+            offsets,
+            counts,
+        })
     }
 
     /// Strands and points of the groom.
@@ -78,10 +91,12 @@ impl Fibres {
         self.beta_n
     }
 
-    /// Gives all strands one absorption of the cortex, and returns what they had. The medulla's stays where
+    /// Gives all strands one absorption of the cortex, and returns what they had. The medulla's follows it
+    /// where the material says so; else it stays where
     /// it is the same for all, and becomes its mean where it is not.
     pub fn set_cortex(&mut self, cortex: Vec3) -> Result<Varying<Absorption>, ScatteringError> {
         let medulla = match &self.absorption {
+            _ if self.medulla_as_cortex => cortex,
             Varying::Constant(absorption) => absorption.medulla(),
             Varying::Strand(all) | Varying::Vertex(all) => {
                 let sum: DVec3 = all.iter().map(|a| a.medulla().as_dvec3()).sum();

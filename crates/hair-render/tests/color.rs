@@ -113,3 +113,31 @@ fn a_fixed_offset_takes_the_variation_across_the_fibre_away() {
     let (rim, middle, own) = (look(Some(1.0)), look(Some(0.0)), look(None));
     assert!((rim - 1.0).abs() < 0.02 && middle < own && own < rim, "{rim} {middle} {own}");
 }
+
+#[test]
+fn another_material_on_the_same_tree_is_the_same_picture() {
+    let mut changed = scene(vec![hair(tuft(80, 0.03), HairColor::default())], Some(white()), vec![]);
+    let wanted = hair(tuft(80, 0.03), blond());
+    changed.set_material(0, &wanted.groom, &wanted.material).unwrap();
+    let built = scene(vec![wanted.clone()], Some(white()), vec![]);
+    let camera = front(&built);
+    assert_eq!(
+        shoot(&changed, &camera, &settings(12, 4)).beauty,
+        shoot(&built, &camera, &settings(12, 4)).beauty
+    );
+    assert!(changed.set_material(1, &wanted.groom, &wanted.material).is_err());
+    assert!(changed.set_material(0, &tuft(81, 0.03), &wanted.material).is_err());
+}
+
+/// Elliptical fibres keep their frame: the same seed, the same picture, and another than round fibres give.
+#[test]
+fn elliptical_fibres_show_and_stay_put() {
+    let with = |aspect| {
+        let mut object = hair(tuft(60, 0.05), blond());
+        object.material.fibre.parameters.aspect = aspect;
+        let scene = scene(vec![object], Some(Environment::studio(16).unwrap()), vec![]);
+        shoot(&scene, &front(&scene), &settings(16, 8)).beauty
+    };
+    assert_eq!(with(0.7), with(0.7));
+    assert_ne!(with(0.7), with(1.0));
+}

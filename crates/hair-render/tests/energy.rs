@@ -4,6 +4,8 @@
 mod common;
 
 use common::*;
+use fibre_material::Field;
+use fibre_scattering::{HairParameters, Medulla, WaterFilm};
 use glam::{DVec3, Vec3};
 use hair_render::*;
 use moving_mesh::TriangleMesh;
@@ -32,6 +34,53 @@ fn white_hair_vanishes_in_a_white_furnace() {
             assert!(worst < 5e-3, "worst pixel is {worst} off");
         }
     }
+}
+
+/// Every kind of fibre, white, gives back what it gets: wet, elliptical, seen from afar, fur.
+#[test]
+fn every_white_fibre_vanishes_in_a_white_furnace() {
+    let medulla = Medulla { kappa: 0.86, sigma_s: 3.15, g: 0.79, ..Medulla::NONE };
+    let hair = |parameters| Material { parameters, ..Material::default() };
+    let plain = HairParameters::default();
+    let kinds = [
+        ("wet", hair(HairParameters { film: Some(WaterFilm::default()), ..plain })),
+        ("elliptical", hair(HairParameters { aspect: 0.6, ..plain })),
+        ("layered", hair(HairParameters { cuticle_layers: Some(2.45), ..plain })),
+        ("far", Material { field: Field::Far { nodes: 16 }, ..hair(plain) }),
+        ("fur", Material { medulla, ..hair(plain) }),
+    ];
+    for (name, fibre) in kinds {
+        let fibre = Material { color: HairColor::Absorption(Vec3::ZERO), ..fibre };
+        let material = HairMaterial { fibre, ..HairMaterial::default() };
+        let scene = scene(vec![HairObject { groom: tuft(300, 0.02), material }], Some(white()), vec![]);
+        let settings = RenderSettings {
+            max_bounces: 512,
+            roulette_start: 513,
+            light_sampling: LightSampling::ScatteringOnly,
+            background: Background::Visible,
+            ..settings(16, 16)
+        };
+        let frame = shoot(&scene, &front(&scene), &settings);
+        let mean = frame.beauty.iter().map(|b| b.as_dvec3()).sum::<DVec3>() / frame.beauty.len() as f64;
+        assert!((mean - DVec3::ONE).abs().max_element() < 5e-3, "{name}: {mean}");
+        let both = RenderSettings { light_sampling: LightSampling::Both, ..settings };
+        let frame = shoot(&scene, &front(&scene), &both);
+        let mean = frame.beauty.iter().map(|b| b.as_dvec3()).sum::<DVec3>() / frame.beauty.len() as f64;
+        assert!((mean - DVec3::ONE).abs().max_element() < 2e-2, "{name}, lights too: {mean}");
+    }
+}
+
+#[test]
+fn fur_has_a_pass_for_what_its_medulla_scatters() {
+    let medulla = Medulla { kappa: 0.86, sigma_s: 3.15, g: 0.79, ..Medulla::NONE };
+    let fibre = Material { medulla, color: blond(), ..Material::default() };
+    let material = HairMaterial { fibre, ..HairMaterial::default() };
+    let scene = scene(vec![HairObject { groom: tuft(200, 0.02), material }], Some(white()), vec![]);
+    let frame = shoot(&scene, &front(&scene), &settings(16, 8).with_aov(Aov::Scattered).with_aov(Aov::R));
+    let light = |aov| frame.pass(aov).unwrap().iter().map(|p| p.element_sum()).sum::<f32>();
+    assert!(light(Aov::Scattered) > light(Aov::R), "most of what this fur returns is scattered");
+    let table = scene.medulla_tables().next().unwrap();
+    assert!(table.object == 0 && table.bytes > 1000 && table.bytes <= 512 * 1024, "{table:?}");
 }
 
 #[test]

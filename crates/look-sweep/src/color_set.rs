@@ -79,9 +79,9 @@ mod tests {
     fn the_curve_is_srgbs() {
         assert!((linear(0.5) - 0.214_041).abs() < 1e-5 && linear(0.0) == 0.0 && linear(1.0) == 1.0);
         assert!((linear(0.04) - 0.003_096).abs() < 1e-6);
-        let (least, most) = (0.0..=1.0).contains(&0.0).then_some((0.0, 1.0)).unwrap();
+
         for color in colors() {
-            assert!(color.linear.min_element() > least && color.linear.max_element() < most, "{color:?}");
+            assert!(color.linear.min_element() > 0.0 && color.linear.max_element() < 1.0, "{color:?}");
         }
     }
 }

@@ -103,9 +103,9 @@ fn beta_m() -> Row {
 
 fn beta_n() -> Row {
     // One absorption for all: through the fit of a colour, which knows beta_n, all would be as light.
-    let sigma = HairColor::Absorption(Vec3::new(0.01, 0.12, 0.4));
+    let sigma = Vec3::new(0.01, 0.12, 0.4);
     let cell = |beta: f32| {
-        let material = Material { color: sigma, ..hair(|h| h.beta_n = beta) };
+        let material = Material { color: HairColor::Absorption(sigma), ..hair(|h| h.beta_n = beta) };
         Cell::new(format!("beta_n = {beta}"), material)
     };
     Row {

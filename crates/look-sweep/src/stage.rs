@@ -6,8 +6,8 @@ use hair_render::{
     Camera, Environment, HairMaterial, HairObject, RenderError, STUDIO_WIDTH, Scene, SceneDescription,
 };
 
-/// Degrees the camera stands round the groom, towards the key light, and above it.
-const VIEW: [f64; 2] = [-20.0, 8.0];
+/// Degrees the camera stands round the groom, where the sample hair hangs as one sheet, and above it.
+const VIEW: [f64; 2] = [125.0, 8.0];
 
 /// A groom in the studio, ready for any material: its tree is built once.
 #[derive(Debug)]
@@ -24,7 +24,8 @@ impl Stage {
     pub fn new(groom: Groom) -> Result<Stage, RenderError> {
         let scene = Scene::build(SceneDescription {
             hair: vec![HairObject { groom: groom.clone(), material: HairMaterial::default() }],
-            environment: Some(Environment::studio(STUDIO_WIDTH)?),
+            // The key light keeps its place beside the camera.
+            environment: Some(Environment::studio(STUDIO_WIDTH)?.rotated(VIEW[0].to_radians() as f32)),
             ..SceneDescription::default()
         })?;
         Ok(Stage { groom, scene })

@@ -1,11 +1,14 @@
 //! `fibre-check`: see `fibre-check --help`. Each subcommand is one file with its `Args` and `run`.
 
+mod colors;
 mod compare;
 mod eval;
 mod material;
 mod output;
 mod report;
 mod stability;
+mod sweep;
+mod sweep_stage;
 
 use std::process::ExitCode;
 
@@ -29,6 +32,8 @@ enum Command {
     Eval(eval::Args),
     Compare(compare::Args),
     Stability(stability::Args),
+    Sweep(sweep::Args),
+    Colors(colors::Args),
 }
 
 fn main() -> ExitCode {
@@ -38,6 +43,8 @@ fn main() -> ExitCode {
         Command::Eval(args) => eval::run(args),
         Command::Compare(args) => compare::run(args),
         Command::Stability(args) => stability::run(args),
+        Command::Sweep(args) => sweep::run(args),
+        Command::Colors(args) => colors::run(args),
     })
 }
 
