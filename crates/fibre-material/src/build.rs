@@ -3,11 +3,12 @@
 use std::path::Path;
 use std::sync::Arc;
 
-use fibre_scattering::{HairParameters, Medulla, WaterFilm};
+use fibre_scattering::{HairParameters, Medulla, ScatteringError, WaterFilm};
 use glam::Vec3;
 use groom::{Ramp, VAxis};
 
-use crate::file::{FieldName, MaterialFile, VDirection};
+use crate::file::{FieldName, MaterialFile, PigmentSet, VDirection};
+use crate::import::Imported;
 use crate::{
     Along, ColorRamp, ColorTexture, Field, FurControls, HairColor, Material, MaterialError, Picture,
     Variation, White, WhiteColor,
@@ -30,14 +31,14 @@ impl MaterialFile {
         &self,
         load: &dyn Fn(&Path) -> Result<Arc<Picture>, MaterialError>,
     ) -> Result<Material, Vec<KeyFault>> {
-        let mut build = Build { file: self, parameters: HairParameters::default(), faults: Vec::new() };
+        let mut build = Build::new(self);
         build.surface();
         let (medulla, medulla_as_cortex) = build.medulla();
         let variation = build.variation();
         let field = build.field();
         let color = build.color(load);
-        let parameters = build.parameters;
-        let material = Material { parameters, color, medulla, medulla_as_cortex, variation, field };
+        let (parameters, pigments) = (build.parameters, self.pigments.unwrap_or(build.imported.pigments));
+        let material = Material { parameters, color, pigments, medulla, medulla_as_cortex, variation, field };
         if build.faults.is_empty()
             && let Err(error) = material.check()
         {
@@ -49,11 +50,46 @@ impl MaterialFile {
 
 struct Build<'a> {
     file: &'a MaterialFile,
+    /// What the file begins with.
+    imported: Imported,
     parameters: HairParameters,
     faults: Vec<KeyFault>,
 }
 
-impl Build<'_> {
+impl<'a> Build<'a> {
+    fn new(file: &'a MaterialFile) -> Self {
+        let parameters = HairParameters::default();
+        let (color, pigments) = (HairColor::default(), PigmentSet::default());
+        let imported = Imported { parameters, color, pigments, varied: [0.0; 2] };
+        let mut build = Build { file, imported, parameters, faults: Vec::new() };
+        let imports = file.imports();
+        if let [one, two, ..] = &imports[..] {
+            build.fault(two.key(), format!("contradicts `{}`; keep one", one.key()));
+        }
+        if let Some(import) = imports.first() {
+            match import.fibre() {
+                Ok(imported) => {
+                    // What is absorbed is the colour's to say.
+                    build.parameters = HairParameters { sigma_a: Vec3::ZERO, ..imported.parameters };
+                    build.imported = imported;
+                }
+                Err(error) => build.scattering(import.key(), error),
+            }
+        }
+        build
+    }
+
+    /// A fault of the model's, below the key `block` if that has one of its name.
+    fn scattering(&mut self, block: &str, error: ScatteringError) {
+        match error {
+            ScatteringError::OutOfRange { name, found, range } if !name.contains(' ') => {
+                let key = if block.is_empty() { name.to_owned() } else { format!("{block}.{name}") };
+                self.fault(&key, format!("must lie in {range}, found {found}"));
+            }
+            error => self.fault(block, error),
+        }
+    }
+
     fn fault(&mut self, key: &str, message: impl ToString) {
         self.faults.push((key.to_owned(), message.to_string()));
     }
@@ -128,7 +164,8 @@ impl Build<'_> {
                 let (water, film) = (WaterFilm::default(), film.unwrap_or_default());
                 let eta = film.eta.unwrap_or(water.eta);
                 let roughness = film.roughness.unwrap_or(water.roughness);
-                self.set("film", |p| p.film = Some(WaterFilm { eta, roughness }));
+                self.set("film.eta", |p| p.film.get_or_insert(water).eta = eta);
+                self.set("film.roughness", |p| p.film.get_or_insert(water).roughness = roughness);
             }
             (Some(false) | None, None) => {}
         }
@@ -182,6 +219,7 @@ impl Build<'_> {
             MaterialError::Value { what, found, expected } if !what.contains(' ') => {
                 self.fault(&what, format!("is {found}, expected {expected}"));
             }
+            MaterialError::Scattering(error) => self.scattering("", error),
             error => self.fault("", error),
         }
     }
@@ -207,13 +245,14 @@ impl Build<'_> {
         };
         let absorption = ramp("along.absorption", along.absorption);
         let melanin = ramp("along.melanin", along.melanin);
+        let [pigment, roughness] = self.imported.varied;
         let variation = Variation {
             seed: file.seed.unwrap_or(0),
-            pigment: amount(file.pigment),
+            pigment: file.pigment.unwrap_or(pigment),
             redness: amount(file.redness),
             hue: amount(file.hue) / 360.0,
             value: amount(file.value),
-            roughness: amount(file.roughness),
+            roughness: file.roughness.unwrap_or(roughness),
             white: White { share: amount(file.white), color },
             along: Along { absorption, melanin },
         };
@@ -290,8 +329,10 @@ impl Build<'_> {
             picture.map_or(HairColor::default(), |picture| {
                 HairColor::Texture(ColorTexture { file, v_axis, picture })
             })
-        } else {
+        } else if file.groom.is_some() {
             self.groom_color()
+        } else {
+            self.imported.color.clone()
         }
     }
 

@@ -4,7 +4,12 @@
 
 use std::path::PathBuf;
 
+use fibre_scattering::Pigments;
 use serde::{Deserialize, Serialize};
+
+use crate::import::{
+    ArnoldBlock, CyclesBlock, Import, MaterialXBlock, MitsubaBlock, PbrtBlock, RenderManBlock,
+};
 
 /// A material in words: what a material file holds, or the `material` of a pipeline. Every key may be left
 /// out; unknown ones are refused.
@@ -31,6 +36,8 @@ pub struct MaterialFile {
     pub eumelanin: Option<f32>,
     /// Concentration of the yellow to red pigment.
     pub pheomelanin: Option<f32>,
+    /// What a unit of pigment absorbs: `deon` (pbrt, Mitsuba, MaterialX) or `cycles`.
+    pub pigments: Option<PigmentSet>,
     /// The groom's own attributes.
     pub groom: Option<GroomColor>,
     /// A picture at the strands' `root_uv`.
@@ -69,10 +76,60 @@ pub struct MaterialFile {
     /// What changes from root to tip.
     pub along: Option<AlongFile>,
 
+    /// A fibre as Blender's Cycles describes it; of this and the next five at most one. Other keys change it.
+    pub cycles: Option<CyclesBlock>,
+    /// As MaterialX's `chiang_hair_bsdf` describes it.
+    pub materialx: Option<MaterialXBlock>,
+    /// As pbrt-v4 describes it.
+    pub pbrt: Option<PbrtBlock>,
+    /// As Mitsuba 3 describes it.
+    pub mitsuba: Option<MitsubaBlock>,
+    /// As Arnold's `standard_hair` describes it.
+    pub arnold: Option<ArnoldBlock>,
+    /// As RenderMan's `PxrMarschnerHair` describes it.
+    pub renderman: Option<RenderManBlock>,
+
     /// `near`, every hit with its own offset across the fibre, or `far`, offsets integrated out.
     pub field: Option<FieldName>,
     /// Offsets in the far field's quadrature, 1..=64; needs `field: far`.
     pub nodes: Option<u32>,
+}
+
+/// What a unit of pigment absorbs: programs disagree.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum PigmentSet {
+    /// d'Eon et al. 2011: pbrt, Mitsuba, MaterialX.
+    #[default]
+    Deon,
+    /// Blender's Cycles.
+    Cycles,
+}
+
+impl PigmentSet {
+    /// The figures.
+    #[must_use]
+    pub fn pigments(self) -> Pigments {
+        match self {
+            PigmentSet::Deon => Pigments::DEON,
+            PigmentSet::Cycles => Pigments::CYCLES,
+        }
+    }
+}
+
+impl MaterialFile {
+    /// The blocks of other programs that are there.
+    pub(crate) fn imports(&self) -> Vec<Import> {
+        let all = [
+            self.cycles.map(Import::Cycles),
+            self.materialx.map(Import::MaterialX),
+            self.pbrt.map(Import::Pbrt),
+            self.mitsuba.map(Import::Mitsuba),
+            self.arnold.map(Import::Arnold),
+            self.renderman.map(Import::RenderMan),
+        ];
+        all.into_iter().flatten().collect()
+    }
 }
 
 /// Colour from the groom's attributes: `color`, or `melanin` and `redness` where `melanin` is said here.

@@ -25,6 +25,7 @@ mod error;
 mod file;
 mod fur_controls;
 mod hue;
+mod import;
 mod material;
 mod open;
 mod overlay;
@@ -39,10 +40,14 @@ pub use color::{ColorRamp, ColorTexture, HairColor};
 pub use dressed::Dressed;
 pub use error::MaterialError;
 pub use file::{
-    AlongFile, FieldName, FilmFile, FurFile, GroomColor, LobesFile, MaterialFile, MedullaFile, ScalesFile,
-    TextureFile, VDirection, VariationFile,
+    AlongFile, FieldName, FilmFile, FurFile, GroomColor, LobesFile, MaterialFile, MedullaFile, PigmentSet,
+    ScalesFile, TextureFile, VDirection, VariationFile,
 };
 pub use fur_controls::FurControls;
+pub use import::{
+    ArnoldBlock, CyclesBlock, CyclesColoring, Degrees, MaterialXBlock, MitsubaBlock, PbrtBlock,
+    RenderManBlock,
+};
 pub use material::{Field, Material};
 pub use picture::Picture;
 pub use preset::Preset;

@@ -3,7 +3,7 @@
 use fibre_scattering::{FurParameters, HairParameters, Medulla};
 
 use crate::painter::Painter;
-use crate::{HairColor, MaterialError, Variation};
+use crate::{HairColor, MaterialError, PigmentSet, Variation};
 
 /// How the strands of a groom scatter light, as people describe it.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -12,6 +12,8 @@ pub struct Material {
     pub parameters: HairParameters,
     /// Where the absorption of the cortex comes from.
     pub color: HairColor,
+    /// What a unit of melanin, eumelanin or pheomelanin absorbs.
+    pub pigments: PigmentSet,
     /// The core of fur; none for hair.
     pub medulla: Medulla,
     /// Whether the medulla absorbs as the cortex around it does; its own `sigma_a` then does not count.

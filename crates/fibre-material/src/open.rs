@@ -38,6 +38,10 @@ impl MaterialFile {
         if let Some(texture) = &mut self.texture {
             texture.file = base.join(&texture.file);
         }
+        if let (Some(import), true) = (self.imports().first(), self.preset.is_some() || self.file.is_some()) {
+            let expected = "a fibre to begin with once: from a preset, a file or another program";
+            return Err(MaterialError::value(import.key(), "beside `preset` or `file`", expected));
+        }
         let under = match (self.preset.take(), self.file.take()) {
             (Some(preset), Some(_)) => {
                 let expected = "one of `preset` and `file` to begin with";

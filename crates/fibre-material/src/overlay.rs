@@ -63,8 +63,9 @@ impl MaterialFile {
             base.film = None;
         }
         fill!(self, base;
-            color, absorption, melanin, redness, eumelanin, pheomelanin, groom, texture, color_ramp,
-            beta_m, beta_n, alpha, eta, wet, cuticle_layers, aspect, field, nodes);
+            color, absorption, melanin, redness, eumelanin, pheomelanin, pigments, groom, texture, color_ramp,
+            beta_m, beta_n, alpha, eta, wet, cuticle_layers, aspect, field, nodes,
+            cycles, materialx, pbrt, mitsuba, arnold, renderman);
         fill_part!(self, base;
             roughness_scales { tt, trt },
             lobes { r, tt, trt, residual, scattered },

@@ -1,6 +1,6 @@
 //! What each point of a groom absorbs.
 
-use fibre_scattering::{Absorption, absorption_from_melanin, absorption_from_pigments};
+use fibre_scattering::Absorption;
 use glam::{Vec2, Vec3};
 use groom::{Attribute, Domain, FloatView, Groom, GroomError, Texture, Values, Vec3View, names};
 
@@ -107,10 +107,11 @@ impl<'a> Painter<'a> {
     pub fn at(&self, place: Place, lot: &Lot) -> Result<Absorption, MaterialError> {
         let variation = &self.material.variation;
         let beta_n = self.material.parameters.beta_n * lot.roughness;
+        let pigments = self.material.pigments.pigments();
         if lot.white {
             let cortex = match variation.white.color {
                 WhiteColor::Clear => Vec3::ZERO,
-                WhiteColor::Melanin(melanin) => melanin_absorption(melanin, 0.0)?,
+                WhiteColor::Melanin(melanin) => pigments.absorption_from_melanin(melanin, 0.0)?,
                 WhiteColor::Color(color) => fit(color, beta_n)?,
             };
             let medulla = if self.material.medulla_as_cortex { cortex } else { Vec3::ZERO };
@@ -127,6 +128,7 @@ impl<'a> Painter<'a> {
 
     fn cortex(&self, place: Place, lot: &Lot, beta_n: f32) -> Result<Vec3, MaterialError> {
         let Place { strand, vertex, along } = place;
+        let pigments = self.material.pigments.pigments();
         let fitted = |color: Vec3| -> Result<Vec3, MaterialError> {
             let color = checked(color, || format!("the colour of strand {strand}"))?;
             let turned = if lot.hue == 0.0 { color } else { hue::turned(color, lot.hue) };
@@ -154,7 +156,7 @@ impl<'a> Painter<'a> {
                 let factor = lot.pigment * ramp.map_or(1.0, |ramp| ramp.at(along));
                 let concentration = (amount(concentration, "melanin")? * factor).min(1.0);
                 let redness = (amount(redness, "redness")? + lot.redness).clamp(0.0, 1.0);
-                Ok(melanin_absorption(concentration, redness)?)
+                Ok(pigments.absorption_from_melanin(concentration, redness)?)
             }
             Source::Pigments(eumelanin, pheomelanin) => {
                 for (what, found) in [("eumelanin", *eumelanin), ("pheomelanin", *pheomelanin)] {
@@ -168,15 +170,11 @@ impl<'a> Painter<'a> {
                     let redness = (pheomelanin / all + lot.redness).clamp(0.0, 1.0);
                     (eumelanin, pheomelanin) = (all * (1.0 - redness), all * redness);
                 }
-                Ok(lot.pigment * absorption_from_pigments(eumelanin, pheomelanin)?)
+                Ok(lot.pigment * pigments.absorption(eumelanin, pheomelanin)?)
             }
             Source::Absorption(sigma_a) => Ok(lot.pigment * *sigma_a),
         }
     }
-}
-
-fn melanin_absorption(concentration: f32, redness: f32) -> Result<Vec3, MaterialError> {
-    Ok(absorption_from_melanin(concentration, redness)?)
 }
 
 fn is_vertex(view: &FloatView<'_>) -> bool {

@@ -2,7 +2,8 @@
 
 use std::path::Path;
 
-use fibre_material::{Field, HairColor, Material, Preset, WhiteColor};
+use fibre_material::{Field, HairColor, Material, PigmentSet, Preset, WhiteColor};
+use fibre_scattering::{CyclesHair, CyclesParametrization};
 use glam::Vec3;
 use proptest::prelude::*;
 
@@ -54,7 +55,6 @@ eta: 1.6
 lobes: {R: 0, scattered: 2}
 film: {eta: 1.4}
 cuticle_layers: 1.5
-aspect: 0.8
 medulla: {kappa: 0.5, sigma_s: 2, sigma_a: [0.1, 0.2, 0.3], g: -0.5}
 variation: {seed: 7, pigment: 0.1, hue: 18, roughness: 0.2, white: 0.15, white_melanin: 0.05}
 along: {absorption: [[0, 1.5], [1, 0.5]]}
@@ -63,7 +63,8 @@ nodes: 8
 ";
     let material = read(text);
     let p = material.parameters;
-    assert_eq!((p.beta_m, p.beta_n, p.eta, p.aspect), (0.2, 0.4, 1.6, 0.8));
+    assert_eq!((p.beta_m, p.beta_n, p.eta), (0.2, 0.4, 1.6));
+    assert_eq!(read("aspect: 0.8").parameters.aspect, 0.8);
     assert_eq!((p.roughness_scales.tt, p.roughness_scales.trt), (0.7, 1.5));
     assert_eq!(p.alpha, 3.0_f32.to_radians());
     assert_eq!(p.lobe_weights, [0.0, 1.0, 1.0, 1.0, 2.0]);
@@ -94,7 +95,16 @@ fn faults_have_their_file_line_key_value_and_range() {
         ("lobes: {TRT: -1}", "a.yaml:1:14: lobes.TRT: "),
         ("lobes: {TRTT: 1}", "a.yaml:1:9: lobes: unknown key `TRTT`, did you mean `TRT`?"),
         ("wet: false\nfilm: {}", "a.yaml:2:7: film: contradicts `wet: false`; keep one"),
-        ("film: {eta: 0.5}", "a.yaml:1:7: film: "),
+        ("film: {eta: 0.5}", "a.yaml:1:13: film.eta: must lie in"),
+        (
+            "aspect: 0.8\nmedulla: {kappa: 0.5}",
+            "a.yaml:1:9: aspect: must lie in [1, 1]: a fibre with a medulla is round",
+        ),
+        ("cycles: {}\npbrt: {}", "a.yaml:2:7: pbrt: contradicts `cycles`; keep one"),
+        ("cycles: {roughness: 7}", "a.yaml:1:21: cycles.roughness: must lie in [0.001, 1], found 7"),
+        ("cycles: {rough: 7}", "cycles: unknown key `rough`, expected one of `parametrization`"),
+        ("renderman: {specularConeAngle: 7}", "did you mean `specularConeAngleR`?"),
+        ("preset: default\ncycles: {}", "cycles is beside `preset` or `file`"),
         ("medulla: {kappa: 1.2}", "a.yaml:1:18: medulla.kappa: "),
         ("medulla: {}\nfur: {}", "medulla: contradicts `fur`; keep one"),
         ("fur: {medulla_index: 2}", "a.yaml:1:22: fur.medulla_index: is 2, expected 0..1"),
@@ -127,6 +137,34 @@ fn faults_have_their_file_line_key_value_and_range() {
     }
     // Every fault is told at once.
     assert_eq!(refused("beta_m: 7\nbeta_n: 7\nalpha: 100").lines().count(), 3);
+}
+
+#[test]
+fn other_programs_fibres() {
+    let material = read(
+        "cycles: {parametrization: melanin, melanin: 0.5, melanin_redness: 0.3, random_color: 0.4, offset: 3}",
+    );
+    let color = HairColor::Melanin { concentration: 0.5, redness: 0.3 };
+    assert_eq!((&material.color, material.pigments), (&color, PigmentSet::Cycles));
+    assert_eq!((material.variation.pigment, material.parameters.alpha), (0.4, 3.0_f32.to_radians()));
+    let theirs = CyclesHair {
+        parametrization: CyclesParametrization::Melanin,
+        melanin: 0.5,
+        melanin_redness: 0.3,
+        offset: 3.0_f32.to_radians(),
+        ..CyclesHair::default()
+    };
+    assert_eq!(material.constant().unwrap().hair, theirs.parameters().unwrap());
+    // In Cycles a direct colour does not vary.
+    assert_eq!(read("cycles: {random_color: 0.4, random_roughness: 0.2}").variation.pigment, 0.0);
+    // Other keys change what was imported.
+    let changed = read("pbrt: {beta_m: 0.4, beta_n: 0.5}\nbeta_m: 0.2\nmelanin: 0");
+    assert_eq!((changed.parameters.beta_m, changed.parameters.beta_n), (0.2, 0.5));
+    assert_eq!(changed.constant().unwrap().hair.sigma_a, Vec3::ZERO);
+    let spreads =
+        "materialx: {roughness_R: [0.04, 0.1], roughness_TT: [0.01, 0.1], roughness_TRT: [0.16, 0.1]}";
+    assert!((read(spreads).parameters.lobe_spreads()[0][0] - 0.04).abs() < 1e-6);
+    assert!(refused("materialx: {}").starts_with("a.yaml:1:12: materialx: roughness_TT s must lie in"));
 }
 
 #[test]

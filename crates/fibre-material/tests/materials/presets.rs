@@ -1,7 +1,7 @@
 //! Every preset is a sound material, and what its name says.
 
 use fibre_material::{Material, MaterialError, Preset};
-use fibre_scattering::{HairBcsdf, Medulla};
+use fibre_scattering::{HairBcsdf, Medulla, beta_m_from_variance, beta_n_from_scale};
 
 #[test]
 fn every_preset_is_sound_and_says_where_it_is_from() {
@@ -49,4 +49,35 @@ fn the_thesis_defaults_are_its_table() {
         ..Material::preset("thesis-fur").unwrap()
     };
     assert_eq!(fur, thesis);
+}
+
+#[test]
+fn the_fur_sets_have_the_published_spreads() {
+    // Deviations in degrees, along and around the fibre.
+    for (name, along, around, kappa) in
+        [("fur-kappa-0.86", 9.45_f64, 17.63_f64, 0.86), ("fur-kappa-0.88", 11.64, 7.49, 0.88)]
+    {
+        let material = Material::preset(name).unwrap();
+        let beta_m = beta_m_from_variance(along.to_radians().powi(2) as f32).unwrap();
+        let scale = (2.0 * around.to_radians().powi(2) * 24.0 / std::f64::consts::PI.powi(3)).sqrt();
+        let beta_n = beta_n_from_scale(scale as f32).unwrap();
+        let p = material.parameters;
+        assert!((p.beta_m - beta_m).abs() < 1e-5 && (p.beta_n - beta_n).abs() < 1e-5, "{beta_m} {beta_n}");
+        assert_eq!((p.roughness_scales.tt, p.roughness_scales.trt), (1.0, 1.5));
+        assert_eq!(material.medulla.kappa, kappa);
+    }
+}
+
+#[test]
+fn other_programs_defaults_are_theirs() {
+    use fibre_scattering::{ArnoldHair, CyclesHair, MitsubaHair, PbrtHair, PxrMarschnerHair};
+    for (name, theirs) in [
+        ("arnold-default", ArnoldHair::default().parameters()),
+        ("cycles-default", CyclesHair::default().parameters()),
+        ("mitsuba-default", MitsubaHair::default().parameters()),
+        ("pbrt-default", PbrtHair::default().parameters()),
+        ("renderman-default", PxrMarschnerHair::default().parameters()),
+    ] {
+        assert_eq!(Material::preset(name).unwrap().constant().unwrap().hair, theirs.unwrap(), "{name}");
+    }
 }
