@@ -3,7 +3,9 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
+use clap::builder::PossibleValuesParser;
 use clap::{Parser, ValueEnum};
+use fibre_material::Material;
 use glam::{DVec3, Vec3};
 use hair_render::{Aov, AovSet};
 
@@ -14,15 +16,15 @@ use hair_render::{Aov, AovSet};
 #[derive(Debug, Parser)]
 #[command(
     version,
-    override_usage = "hair-render [OPTIONS] --output <FILE> <GROOM>\n       hair-render --write-studio <FILE>"
+    override_usage = "hair-render [OPTIONS] --output <FILE> <GROOM>\n       hair-render --write-studio <FILE>\n       hair-render --list-presets"
 )]
 pub struct Args {
     /// The groom: .hair, .txt, .gltf, .glb, .usda
-    #[arg(required_unless_present = "write_studio")]
+    #[arg(required_unless_present_any = ["write_studio", "list_presets"])]
     pub groom: Option<PathBuf>,
 
     /// The picture to write (.exr)
-    #[arg(short, long, value_name = "FILE", required_unless_present = "write_studio")]
+    #[arg(short, long, value_name = "FILE", required_unless_present_any = ["write_studio", "list_presets"])]
     pub output: Option<PathBuf>,
 
     /// Also write a tone-mapped preview (.png)
@@ -55,6 +57,10 @@ pub struct Args {
     /// Write the built-in studio environment (.exr) and do nothing else
     #[arg(long, value_name = "FILE", conflicts_with_all = ["groom", "output"])]
     pub write_studio: Option<PathBuf>,
+
+    /// Print the presets, what they say and where their figures are from, and do nothing else
+    #[arg(long, conflicts_with_all = ["groom", "output", "write_studio"])]
+    pub list_presets: bool,
 }
 
 #[derive(Debug, clap::Args)]
@@ -139,6 +145,15 @@ pub struct View {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Hair")]
 pub struct Fibre {
+    /// A material file (.yaml): colour, roughness, medulla, how strands differ; see samples/materials
+    #[arg(long, value_name = "FILE", conflicts_with_all = ["preset", "color", "melanin", "absorption",
+        "beta_m", "beta_n", "alpha", "eta"])]
+    pub material: Option<PathBuf>,
+    /// A material that comes with the program, by name: see --list-presets
+    #[arg(long, value_name = "NAME", hide_possible_values = true,
+        value_parser = PossibleValuesParser::new(Material::preset_names()),
+        conflicts_with_all = ["color", "melanin", "absorption", "beta_m", "beta_n", "alpha", "eta"])]
+    pub preset: Option<String>,
     /// Colour r,g,b instead of the groom's own, linear Rec. 709
     #[arg(long, value_name = "RGB", value_parser = parse_rgb)]
     pub color: Option<Vec3>,

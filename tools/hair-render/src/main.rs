@@ -2,6 +2,7 @@
 
 mod args;
 mod picture;
+mod presets;
 mod scene;
 
 use std::process::ExitCode;
@@ -13,6 +14,7 @@ use crate::args::Args;
 fn main() -> ExitCode {
     let args = Args::parse();
     command_line::run(|| match &args.write_studio {
+        _ if args.list_presets => presets::list(),
         Some(path) => picture::write_studio(path),
         None => picture::render(&args),
     })

@@ -19,7 +19,7 @@ pub fn describe(args: &Args) -> Result<(SceneDescription, Vec<String>)> {
     let loaded = groom_formats::read(path, &read_options(&args.input))?;
     let mut words: Vec<String> = loaded.warnings.iter().map(|w| format!("{}: {w}", path.display())).collect();
     words.extend(loaded.repairs);
-    let hair = HairObject { groom: loaded.groom, material: material(&args.fibre) };
+    let hair = HairObject { groom: loaded.groom, material: material(&args.fibre)? };
     let meshes: Result<Vec<MeshObject>> = args
         .input
         .mesh
@@ -71,7 +71,18 @@ fn read_options(input: &Input) -> ReadOptions {
     }
 }
 
-fn material(fibre: &Fibre) -> HairMaterial {
+fn material(fibre: &Fibre) -> Result<HairMaterial> {
+    let transparency = if fibre.use_transparency { Transparency::Stochastic } else { Transparency::Ignored };
+    let material = match (&fibre.material, &fibre.preset) {
+        (Some(path), _) => Material::open(path)?,
+        (None, Some(name)) => Material::preset(name)?,
+        (None, None) => told(fibre),
+    };
+    Ok(HairMaterial { fibre: material, transparency, fixed_offset: fibre.fixed_offset })
+}
+
+/// The material of the options that say it one by one.
+fn told(fibre: &Fibre) -> Material {
     let color = match (fibre.color, fibre.melanin, fibre.absorption) {
         (Some(color), ..) => HairColor::Color(color),
         (_, Some(melanin), _) => {
@@ -88,12 +99,7 @@ fn material(fibre: &Fibre) -> HairMaterial {
         eta: fibre.eta,
         ..HairParameters::default()
     };
-    let transparency = if fibre.use_transparency { Transparency::Stochastic } else { Transparency::Ignored };
-    HairMaterial {
-        fibre: Material { parameters, color, ..Material::default() },
-        transparency,
-        fixed_offset: fibre.fixed_offset,
-    }
+    Material { parameters, color, ..Material::default() }
 }
 
 fn environment(light: &Light) -> Result<Environment> {

@@ -52,6 +52,35 @@ fn a_picture_its_preview_and_nothing_but_json_on_stdout() {
     assert!(quiet.status.success() && quiet.stdout.is_empty());
 }
 
+#[test]
+fn materials_come_from_files_and_presets() {
+    let folder = folder("materials");
+    let small = ["--width", "8", "--height", "8", "--spp", "1"];
+    std::fs::write(folder.join("own.yaml"), "preset: human-red\nvariation: {white: 0.2}\n").unwrap();
+    for (material, picture) in
+        [(["--material", "own.yaml"], "own.exr"), (["--preset", "human-red"], "red.exr")]
+    {
+        let done = run(&folder, &[&small[..], &material, &["-o", picture]].concat());
+        assert_eq!(done.status.code(), Some(0), "{}", String::from_utf8_lossy(&done.stderr));
+    }
+    assert_eq!(names(&folder), ["own.exr", "own.yaml", "red.exr"]);
+    std::fs::write(folder.join("bad.yaml"), "beta_m: 0.3\nbeta_n: 7\n").unwrap();
+    for (arguments, says) in [
+        (&["--material", "bad.yaml"][..], "bad.yaml:2:9: beta_n: must lie in [0.001, 1], found 7"),
+        (&["--material", "none.yaml"], "none.yaml"),
+        (&["--preset", "human-bron"], "human-brown"),
+        (&["--preset", "human-red", "--color", "1,1,1"], "--color"),
+        (&["--material", "own.yaml", "--beta-m", "0.3"], "--beta-m"),
+    ] {
+        let refused = run(&folder, &[&FOREVER, arguments, &["-o", "no.exr"]].concat());
+        let words = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{arguments:?}: {words}");
+        assert!(words.contains(says), "{arguments:?}: {words}");
+    }
+    let list = Command::new(env!("CARGO_BIN_EXE_hair-render")).arg("--list-presets").output().unwrap();
+    assert!(String::from_utf8(list.stdout).unwrap().contains("fur-kappa-0.86: Yan et al. 2017"));
+}
+
 /// So many samples that a test which waited for them would not end.
 const FOREVER: [&str; 2] = ["--spp", "4000000"];
 
