@@ -66,6 +66,15 @@ impl MaterialFile {
         Ok(self.over(under))
     }
 
+    /// The material, with all it begins with and its pictures; paths in the file count from `base`.
+    ///
+    /// # Errors
+    /// As [`MaterialFile::resolved`], or [`MaterialError::File`] with every fault that could be found; without
+    /// lines, which [`Material::open`] has.
+    pub fn open_all(self, base: &Path) -> Result<Material, MaterialError> {
+        self.resolved(base)?.finished(Path::new("material"), "")
+    }
+
     /// The material, its pictures read; `path` and `text` are for messages.
     fn finished(&self, path: &Path, text: &str) -> Result<Material, MaterialError> {
         let load = |path: &Path| Picture::open(path).map(Arc::new);
@@ -74,7 +83,7 @@ impl MaterialFile {
 
     /// Checks everything but the pixels of pictures.
     fn checked(&self, path: &Path, text: &str) -> Result<(), MaterialError> {
-        self.material(&blank).map(drop).map_err(|faults| placed(faults, path, text))
+        self.material(&Picture::unread).map(drop).map_err(|faults| placed(faults, path, text))
     }
 
     /// Every file that a change of would change this material, the ones it begins with and its picture;
@@ -94,15 +103,6 @@ impl MaterialFile {
             files.push(path);
         }
         Ok(files)
-    }
-}
-
-/// Stands for a picture that is there and need not be read: its colours matter to no check.
-fn blank(path: &Path) -> Result<Arc<Picture>, MaterialError> {
-    match std::fs::metadata(path) {
-        Ok(data) if data.is_file() => Ok(Arc::new(Picture::new(1, vec![glam::Vec3::ONE])?)),
-        Ok(_) => Err(MaterialError::picture(path, "it is no file")),
-        Err(source) => Err(MaterialError::Io { path: path.to_owned(), source }),
     }
 }
 

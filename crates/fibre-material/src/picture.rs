@@ -1,6 +1,7 @@
 //! Pictures that strands take their colours from.
 
 use std::path::Path;
+use std::sync::Arc;
 
 use glam::Vec3;
 use groom::{Texture, VAxis};
@@ -52,6 +53,18 @@ impl Picture {
             }
         };
         Picture::new(width, pixels).map_err(|error| MaterialError::picture(path, error))
+    }
+
+    /// Stands for the picture in a file that is there and need not be read: its colours matter to no check.
+    ///
+    /// # Errors
+    /// [`MaterialError::Io`] or [`MaterialError::Picture`] for what is no file.
+    pub fn unread(path: &Path) -> Result<Arc<Picture>, MaterialError> {
+        match std::fs::metadata(path) {
+            Ok(data) if data.is_file() => Ok(Arc::new(Picture { width: 1, pixels: vec![Vec3::ONE] })),
+            Ok(_) => Err(MaterialError::picture(path, "it is no file")),
+            Err(source) => Err(MaterialError::Io { path: path.to_owned(), source }),
+        }
     }
 
     /// The picture, to be looked up.

@@ -7,7 +7,7 @@ use hair_render::Aov;
 use strict_yaml::{Fault, locate, nearest};
 
 use crate::schema::{Attributes, EnvironmentSource, Pipeline};
-use crate::sheet;
+use crate::{material, sheet};
 
 /// A picture of more pixels than this is taken for a slip: it would need gigabytes.
 const MOST_PIXELS: u64 = 1 << 28;
@@ -25,7 +25,7 @@ pub(crate) fn faults(pipeline: &Pipeline, file: &Path, text: &str) -> Vec<Fault>
     check.groom(pipeline);
     check.attributes(&pipeline.attributes);
     check.outputs(pipeline);
-    check.material(pipeline);
+    check.found.extend(material::faults(&pipeline.material, base));
     check.lights(pipeline);
     check.views(pipeline);
     let in_text = |(key, message): (String, String)| {
@@ -193,28 +193,6 @@ impl Check<'_> {
         }
     }
 
-    fn material(&mut self, pipeline: &Pipeline) {
-        let m = &pipeline.material;
-        let sources = [m.color.is_some(), m.melanin.is_some(), m.absorption.is_some()];
-        if sources.into_iter().filter(|&s| s).count() > 1 {
-            self.fault("material", "has more than one of `color`, `melanin`, `absorption`; keep one");
-        }
-        if m.redness.is_some() && m.melanin.is_none() {
-            self.fault("material.redness", "needs `melanin` beside it");
-        }
-        self.color("material.color", m.color, 1.0);
-        self.color("material.absorption", m.absorption, f32::MAX);
-        let unit = |v: Option<f32>| v.is_none_or(|v| (0.0..=1.0).contains(&v));
-        for (key, value) in [("material.melanin", m.melanin), ("material.redness", m.redness)] {
-            self.need(unit(value), key, value.unwrap_or_default(), "0..1");
-        }
-        for (key, beta) in [("material.beta_m", m.beta_m), ("material.beta_n", m.beta_n)] {
-            self.need(beta > 0.0 && beta <= 1.0, key, beta, "above 0, at most 1");
-        }
-        self.need(m.alpha.abs() <= 45.0, "material.alpha", m.alpha, "-45..45 degrees");
-        self.need(m.eta > 1.0 && m.eta <= 4.0, "material.eta", m.eta, "above 1, at most 4");
-    }
-
     fn lights(&mut self, pipeline: &Pipeline) {
         let lights = &pipeline.lights;
         if let Some(environment) = &lights.environment {
@@ -350,9 +328,11 @@ mod tests {
         for (more, words) in [
             ("material: {color: [1, 1, 1], melanin: 0.5}\n", "keep one"),
             ("material: {redness: 0.5}\n", "needs `melanin`"),
-            ("material: {beta_m: 0}\n", "above 0"),
+            ("material: {beta_m: 0}\n", "turn.yaml:4:20: material.beta_m: must lie in [0.001, 1], found 0"),
             ("material: {color: [2, 0, 0]}\n", "three numbers in 0..1"),
-            ("material: {absorption: [.inf, 0, 0]}\n", "finite"),
+            ("material: {absorption: [.inf, 0, 0]}\n", "material.absorption: "),
+            ("material: {preset: human}\n", "turn.yaml:4:20: material.preset: unknown preset `human`"),
+            ("material: {file: none.yaml}\n", "turn.yaml:4:18: material.file: none.yaml: "),
             ("attributes: {width: 1, width_ramp: [1, 0]}\n", "keep one"),
             ("attributes: {width: .nan}\n", "a diameter"),
             ("convert: [../out.txt]\n", "inside the output folder"),
@@ -365,7 +345,7 @@ mod tests {
             ("mesh: {file: none.obj}\n", "no file at"),
             ("mesh: {}\n", "turn.yaml:4:7: mesh: needs `file: PATH`"),
             ("attributes: {width: -1}\n", "attributes.width: is -1.0, expected"),
-            ("material: {melanin: 3}\n", "material.melanin: is 3.0, expected 0..1"),
+            ("material: {melanin: 3}\n", "material.melanin: is 3, expected 0..1"),
             ("camera: {target: [.nan, 0, 0]}\n", "three finite numbers"),
             ("render: {width: 60000, height: 60000}\n", "render: is 60000 x 60000 pixels"),
             ("turntable: {frames: 9999}\nrender: {width: 900}\nsheet: {}\n", "sheet: is "),

@@ -46,6 +46,9 @@ pub enum TurntableError {
     /// The sample groom could not be made.
     #[error("groom.sample: {0}")]
     Sample(String),
+    /// The material could not be made.
+    #[error("material: {0}")]
+    Material(#[from] fibre_material::MaterialError),
     /// The mesh could not be read.
     #[error(transparent)]
     Mesh(#[from] moving_mesh::MeshError),

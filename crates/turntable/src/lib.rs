@@ -31,6 +31,7 @@ mod explain;
 mod frame_file;
 mod frames;
 mod manifest;
+mod material;
 mod plan;
 mod prepare;
 mod report;

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::digest::{Digest, Ingredients};
 use crate::manifest::Manifest;
 use crate::schema::Pipeline;
-use crate::{Fault, FrameRange, TurntableError, check, frame_file, yaml};
+use crate::{Fault, FrameRange, TurntableError, check, frame_file, material, yaml};
 
 /// What the caller asks for beside the file.
 #[derive(Clone, Debug, Default)]
@@ -120,7 +120,9 @@ impl Plan {
             pipeline.mesh.as_ref().map(|m| &m.file),
             pipeline.lights.environment.as_ref().and_then(|e| e.file.as_ref()),
         ];
+        let material = pipeline.material.files(&self.base)?;
         let inputs = named.into_iter().flatten().map(|input| self.base.join(input)).chain([file.to_owned()]);
+        let inputs = inputs.chain(material);
         let inputs: Vec<PathBuf> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
         let own = [Path::new("manifest.json"), Path::new("report.json"), Path::new("report.html")];
         let outputs = self.steps.iter().map(|s| s.output.as_path()).chain(own);
@@ -288,7 +290,8 @@ impl Plan {
     }
 
     fn scene_digest(&self, groom: &Digest) -> Result<Digest, TurntableError> {
-        let mut digest = Ingredients::of("scene").digest(groom).settings(&self.pipeline.material);
+        let mut digest =
+            material::added(Ingredients::of("scene").digest(groom), &self.pipeline.material, &self.base)?;
         if let Some(mesh) = &self.pipeline.mesh {
             digest = digest.file(&self.base.join(&mesh.file))?;
             digest = digest.settings(&(mesh.up, mesh.meters_per_unit, mesh.albedo));

@@ -2,18 +2,18 @@
 
 use std::path::Path;
 
+use fibre_material::MaterialFile;
 use glam::{Affine3A, DMat3, DVec3, Mat3, Vec3};
 use groom::Groom;
 use hair_render::{
-    Aov, AovSet, AreaLight, Backdrop, Background, Camera, Curve, Environment, HairColor, HairMaterial,
-    HairObject, MeshObject, RenderSettings, Scene, SceneDescription, ToneMapping,
+    Aov, AovSet, AreaLight, Backdrop, Background, Camera, Curve, Environment, HairMaterial, HairObject,
+    MeshObject, RenderSettings, Scene, SceneDescription, ToneMapping,
 };
 use moving_mesh::TriangleMesh;
 
 use crate::TurntableError;
 use crate::schema::{
-    AreaSource, Axis, CameraSettings, EnvironmentSource, Lights, Material, MeshSource, Render, Tone,
-    ToneCurve, Turning,
+    AreaSource, Axis, CameraSettings, EnvironmentSource, Lights, MeshSource, Render, Tone, ToneCurve, Turning,
 };
 
 /// Everything of a scene but its lights' direction, which may turn from frame to frame.
@@ -27,13 +27,14 @@ impl Stage {
     /// Loads what the scene needs besides the groom.
     pub fn set(
         groom: Groom,
-        material: &Material,
+        material: &MaterialFile,
         mesh: Option<&MeshSource>,
         lights: &Lights,
         turning: Turning,
         base: &Path,
     ) -> Result<Stage, TurntableError> {
-        let hair = vec![HairObject { groom, material: hair_material(material) }];
+        let fibre = material.clone().open_all(base)?;
+        let hair = vec![HairObject { groom, material: HairMaterial { fibre, ..HairMaterial::default() } }];
         let meshes = mesh.map(|source| mesh_object(source, base)).transpose()?.into_iter().collect();
         let environment = lights.environment.as_ref().map(|e| environment_of(e, base)).transpose()?;
         let lights = lights.area.iter().map(area_light).collect::<Result<_, _>>()?;
@@ -66,22 +67,6 @@ impl Stage {
         }
         description
     }
-}
-
-fn hair_material(source: &Material) -> HairMaterial {
-    let mut material = HairMaterial::default();
-    material.fibre.parameters.beta_m = source.beta_m;
-    material.fibre.parameters.beta_n = source.beta_n;
-    material.fibre.parameters.alpha = source.alpha.to_radians();
-    material.fibre.parameters.eta = source.eta;
-    if let Some(color) = source.color {
-        material.fibre.color = HairColor::Color(Vec3::from_array(color));
-    } else if let Some(concentration) = source.melanin {
-        material.fibre.color = HairColor::Melanin { concentration, redness: source.redness.unwrap_or(0.0) };
-    } else if let Some(absorption) = source.absorption {
-        material.fibre.color = HairColor::Absorption(Vec3::from_array(absorption));
-    }
-    material
 }
 
 fn mesh_object(source: &MeshSource, base: &Path) -> Result<MeshObject, TurntableError> {

@@ -4,6 +4,7 @@
 
 use std::path::PathBuf;
 
+use fibre_material::MaterialFile;
 use serde::{Deserialize, Serialize};
 
 /// A whole pipeline.
@@ -24,8 +25,8 @@ pub struct Pipeline {
     pub attributes: Attributes,
     /// Files to write the groom to, in the output folder; the format follows the extension.
     pub convert: Vec<PathBuf>,
-    /// How the strands scatter light.
-    pub material: Material,
+    /// How the strands scatter light: the keys of a material file, among them `file` and `preset`.
+    pub material: MaterialFile,
     /// What shines.
     pub lights: Lights,
     /// How the groom is framed.
@@ -138,44 +139,6 @@ pub struct Attributes {
     pub width_ramp: Option<[f32; 2]>,
     /// Multiply positions and widths.
     pub scale: Option<f32>,
-}
-
-/// How strands scatter light (Chiang et al. 2016). At most one of `color`, `melanin`, `absorption`;
-/// with none of them the groom's own colours count.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct Material {
-    /// Colour of many strands seen together, linear Rec. 709, 0..1.
-    pub color: Option<[f32; 3]>,
-    /// Pigment, perceptually even: 0 white, 0.1 to 0.3 blond, 1 black.
-    pub melanin: Option<f32>,
-    /// Share of red pigment, 0..1; needs `melanin`.
-    pub redness: Option<f32>,
-    /// Absorption per fibre radius, at least 0.
-    pub absorption: Option<[f32; 3]>,
-    /// Longitudinal roughness, 0..1.
-    pub beta_m: f32,
-    /// Azimuthal roughness, 0..1.
-    pub beta_n: f32,
-    /// Tilt of the cuticle scales, degrees.
-    pub alpha: f32,
-    /// Refractive index.
-    pub eta: f32,
-}
-
-impl Default for Material {
-    fn default() -> Self {
-        Material {
-            color: None,
-            melanin: None,
-            redness: None,
-            absorption: None,
-            beta_m: 0.3,
-            beta_n: 0.3,
-            alpha: 2.0,
-            eta: 1.55,
-        }
-    }
 }
 
 /// What shines.
