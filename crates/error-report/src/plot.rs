@@ -4,8 +4,9 @@ use std::fmt::Write as _;
 
 use crate::html::escape;
 
-/// Colours that colour-blind eyes tell apart (Okabe and Ito 2008).
-const COLORS: [&str; 7] = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"];
+/// Colours that colour-blind eyes tell apart (Okabe and Ito 2008), then two more.
+const COLORS: [&str; 9] =
+    ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000", "#8a6d00", "#999999"];
 const WIDTH: f64 = 720.0;
 const HEIGHT: f64 = 420.0;
 const LEFT: f64 = 70.0;

@@ -53,7 +53,7 @@ impl Sky {
         self.even / (4.0 * PI) + lights.sum::<f64>()
     }
 
-    /// Density of [`Sky::sample`]: in proportion to the radiance.
+    /// Density of directions drawn from the sky: in proportion to the radiance.
     #[must_use]
     pub fn pdf(&self, wi: [f64; 3]) -> f64 {
         self.radiance(wi) / self.power()

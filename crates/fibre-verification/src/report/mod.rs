@@ -42,7 +42,7 @@ impl Default for Settings {
 /// Everything that was found out about one material.
 #[derive(Debug, Clone, Serialize)]
 pub struct Report {
-    /// [`SCHEMA`].
+    /// `"fibre-report/1"`.
     pub schema: &'static str,
     /// Name of the material.
     pub title: String,
