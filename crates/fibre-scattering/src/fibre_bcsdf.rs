@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
-use crate::bcsdf::{HairBcsdf, HairScatter};
-use crate::far_field::{FarFieldBcsdf, FarFieldScatter};
-use crate::fur::{FurBcsdf, FurScatter};
+use crate::fur::bcsdf::{FurBcsdf, FurScatter};
+use crate::hair::bcsdf::{HairBcsdf, HairScatter};
+use crate::hair::far_field::{FarFieldBcsdf, FarFieldScatter};
 use crate::lobe::LobeValues;
 use crate::per_strand::Absorption;
 use crate::sample::FibreSample;

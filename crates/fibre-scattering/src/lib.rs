@@ -68,65 +68,36 @@
 //! finite unit directions. [`ReferenceBcsdf`] is the same code in `f64`, to measure it by.
 
 mod absorption;
-mod arctangent;
-mod attenuation;
-mod azimuthal;
-mod bcsdf;
-mod bessel;
-mod ellipse;
+mod arithmetic;
 mod error;
-mod exponential;
-mod far_cells;
-mod far_field;
-mod fibre;
 mod fibre_bcsdf;
 mod fur;
-mod fur_model;
-mod fur_reference;
-mod lanes;
+mod hair;
 mod lobe;
-mod logarithm;
-mod longitudinal;
-mod medulla;
-mod medulla_bytes;
-mod medulla_density;
-mod medulla_grid;
-mod medulla_paths;
-mod medulla_row;
-mod medulla_scatter;
-mod medulla_table;
-mod medulla_walk;
-mod parameters;
 mod parametrisation;
 mod per_strand;
 mod range;
-mod real;
-mod reference;
 mod sample;
-mod sine;
-mod surface;
-mod yan;
-mod yan_medulla;
 
 pub use absorption::{
     Pigments, absorption_from_color, absorption_from_melanin, absorption_from_pigments, color_from_absorption,
 };
-pub use bcsdf::{HairBcsdf, HairScatter};
 pub use error::ScatteringError;
-pub use far_field::{FarFieldBcsdf, FarFieldScatter};
 pub use fibre_bcsdf::{FibreBcsdf, FibreScatter};
-pub use fur::{FurBcsdf, FurScatter};
-pub use fur_reference::{FurReference, FurReferenceScatter};
+pub use fur::bcsdf::{FurBcsdf, FurScatter};
+pub use fur::medulla::{FurParameters, Medulla};
+pub use fur::reference::{FurReference, FurReferenceScatter};
+pub use fur::row::MedullaRow;
+pub use fur::table::{MedullaKey, MedullaTable};
+pub use fur::yan::{YanBcsdf, YanForm, YanPath, YanScatter};
+pub use hair::bcsdf::{HairBcsdf, HairScatter};
+pub use hair::far_field::{FarFieldBcsdf, FarFieldScatter};
+pub use hair::parameters::{HairParameters, RoughnessScales, WaterFilm};
+pub use hair::reference::{ReferenceBcsdf, ReferenceScatter};
 pub use lobe::{Lobe, LobeValues};
-pub use medulla::{FurParameters, Medulla};
-pub use medulla_row::MedullaRow;
-pub use medulla_table::{MedullaKey, MedullaTable};
-pub use parameters::{HairParameters, RoughnessScales, WaterFilm};
 pub use parametrisation::{
     ArnoldHair, CyclesHair, CyclesParametrization, MaterialXHair, MaterialXMelanin, MaterialXRoughness,
     MitsubaHair, PbrtHair, PxrMarschnerHair, beta_m_from_variance, beta_n_from_scale,
 };
 pub use per_strand::Absorption;
-pub use reference::{ReferenceBcsdf, ReferenceScatter};
 pub use sample::FibreSample;
-pub use yan::{YanBcsdf, YanForm, YanPath, YanScatter};

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::{absent, grey};
 use crate::absorption::{Pigments, absorption_from_color};
 use crate::error::ScatteringError;
-use crate::parameters::HairParameters;
+use crate::hair::parameters::HairParameters;
 use crate::range;
 
 /// The parameters of Arnold's `standard_hair` that describe a fibre, and its defaults.

@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use crate::absorption::{Pigments, absorption_from_color};
 use crate::error::ScatteringError;
-use crate::parameters::{HairParameters, RoughnessScales, longitudinal_variance};
+use crate::hair::parameters::{HairParameters, RoughnessScales, longitudinal_variance};
 use crate::range;
 
 /// Where Cycles takes the absorption from.

@@ -8,7 +8,7 @@ use super::{absent, grey};
 use super::{beta_m_from_variance, beta_n_from_scale};
 use crate::absorption::Pigments;
 use crate::error::ScatteringError;
-use crate::parameters::{HairParameters, RoughnessScales, azimuthal_deviation, longitudinal_variance};
+use crate::hair::parameters::{HairParameters, RoughnessScales, azimuthal_deviation, longitudinal_variance};
 use crate::range;
 
 /// The inputs of MaterialX 1.39's `chiang_hair_bsdf` and its defaults.

@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::exclusive;
 use crate::absorption::Pigments;
 use crate::error::ScatteringError;
-use crate::parameters::HairParameters;
+use crate::hair::parameters::HairParameters;
 use crate::range;
 
 /// The parameters of Mitsuba 3's `hair` plugin and its defaults.

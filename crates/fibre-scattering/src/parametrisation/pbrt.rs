@@ -5,7 +5,7 @@ use glam::Vec3;
 use super::exclusive;
 use crate::absorption::{Pigments, absorption_from_color};
 use crate::error::ScatteringError;
-use crate::parameters::HairParameters;
+use crate::hair::parameters::HairParameters;
 use crate::range;
 
 /// The parameters of pbrt-v4's `hair` material and its defaults.

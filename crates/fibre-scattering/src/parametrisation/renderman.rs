@@ -4,7 +4,7 @@ use glam::Vec3;
 
 use super::{absent, beta_m_from_variance, beta_n_from_scale};
 use crate::error::ScatteringError;
-use crate::parameters::{HairParameters, RoughnessScales};
+use crate::hair::parameters::{HairParameters, RoughnessScales};
 use crate::range;
 
 /// The parameters of RenderMan's `PxrMarschnerHair` that describe a fibre, and its defaults.

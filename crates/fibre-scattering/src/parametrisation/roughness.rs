@@ -1,7 +1,7 @@
 //! From the spread of a lobe back to the roughness that gives it: Chiang et al. 2016, eqs. 7 and 8, inverted.
 
 use crate::error::ScatteringError;
-use crate::parameters::{azimuthal_deviation, longitudinal_variance};
+use crate::hair::parameters::{azimuthal_deviation, longitudinal_variance};
 
 /// The roughness along the fibre whose R lobe has the variance `v`, in (0, 27.436], in radians squared where
 /// it is small: the inverse of eq. 7, `v = (0.726 b + 0.812 b^2 + 3.7 b^20)^2`.

@@ -6,7 +6,9 @@ use glam::Vec3;
 use proptest::prelude::*;
 
 use super::*;
-use crate::{HairBcsdf, HairParameters, RoughnessScales};
+use crate::HairBcsdf;
+use crate::HairParameters;
+use crate::RoughnessScales;
 
 #[track_caller]
 fn near(found: Vec3, expected: [f32; 3], tolerance: f32) {
@@ -100,7 +102,7 @@ fn coat_makes_r_alone_smoother() {
 }
 
 fn longitudinal(beta_m: f32) -> f32 {
-    crate::parameters::longitudinal_variance(f64::from(beta_m)) as f32
+    crate::hair::parameters::longitudinal_variance(f64::from(beta_m)) as f32
 }
 
 /// The node's published figures: exp(-(0.419, 0.697, 1.37)) and exp(-(0.187, 0.4, 1.05)), and at melanin 0.25,
@@ -184,7 +186,7 @@ proptest! {
         let beta = 10.0_f32.powf(exponent);
         let found = beta_m_from_variance(longitudinal(beta)).unwrap();
         prop_assert!((found / beta - 1.0).abs() < 1e-6, "{found}, not {beta}");
-        let s = crate::parameters::azimuthal_deviation(f64::from(beta)) as f32;
+        let s = crate::hair::parameters::azimuthal_deviation(f64::from(beta)) as f32;
         let found = beta_n_from_scale(s).unwrap();
         prop_assert!((found / beta - 1.0).abs() < 1e-6, "{found}, not {beta}");
     }

@@ -1,0 +1,263 @@
+//! Light scattered by the medulla, at one hit: a mixture of the densities of four rows and their classes.
+
+use crate::arithmetic::lanes::Lanes;
+use crate::arithmetic::real::{Real, four};
+use crate::fur::grid::{ALONG, AROUND, CELLS, KNOTS, Place, STEP_AROUND, knot_below, reach};
+use crate::fur::paths::PathNode;
+use crate::fur::row::{CLASS_SHARES, CLASSES};
+use crate::fur::table::MedullaTable;
+use crate::hair::longitudinal::Inclination;
+
+/// What each class of one row lets pass: red, green, blue and the most of them.
+pub(crate) type Passed<T> = [[T; 4]; CLASSES];
+
+/// The passed light of a row for absorption coefficients of cortex and medulla, each at least 0.
+pub(crate) fn passed<T: Real>(table: &MedullaTable, row: usize, [cortex, medulla]: [[T; 3]; 2]) -> Passed<T> {
+    four(|class| {
+        let nodes = &table.nodes[row][class];
+        // Four nodes at a time, the same for every channel.
+        let lanes = |from: usize, number: fn(&PathNode) -> f32| {
+            T::Four::from(four(|node| T::of(f64::from(number(&nodes[from + node])))))
+        };
+        let half = |from: usize| {
+            (
+                lanes(from, |node| node.cortex),
+                lanes(from, |node| node.medulla),
+                lanes(from, |node| node.share),
+            )
+        };
+        let halves = [half(0), half(4)];
+        let channel = |c: usize| {
+            let [low, high] = halves.map(|(in_cortex, in_medulla, share)| {
+                let depth =
+                    in_cortex.times_plus(T::Four::splat(cortex[c]), in_medulla * T::Four::splat(medulla[c]));
+                depth.exp_of_minus() * share
+            });
+            let [a, b, c, d]: [T; 4] = (low + high).into();
+            (a + b) + (c + d)
+        };
+        let (red, green, blue) = (channel(0), channel(1), channel(2));
+        [red, green, blue, red.max(green).max(blue)]
+    })
+}
+
+/// Everything passes.
+pub(crate) fn all_passed<T: Real>() -> Passed<T> {
+    [[T::ONE; 4]; CLASSES]
+}
+
+/// The scattered lobe of a fibre met by a ray.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Scattered<'a, T> {
+    table: &'a MedullaTable,
+    rows: [usize; 4],
+    /// For each row and class what it scatters in red, green and blue, and its chance to be drawn.
+    parts: [[[T; 4]; CLASSES]; 4],
+    /// All chances together.
+    pub chance: T,
+    /// What is scattered in red, green and blue.
+    pub albedo: [T; 3],
+    /// Azimuth where unscattered light leaves first.
+    centre: T,
+    /// -1 where the ray is the mirror image, around the fibre and along it, of the one the rows stand for.
+    mirrors: [T; 2],
+}
+
+/// What lies between two knots along the fibre.
+struct Span {
+    /// Sine of the lower knot.
+    below: f64,
+    /// One over the distance of the knots.
+    inverse_step: f64,
+    /// Density under the tent of either knot of one count of 65536.
+    heights: [f64; 2],
+}
+
+const SPANS: [Span; ALONG - 1] = {
+    const NONE: Span = Span { below: 0.0, inverse_step: 0.0, heights: [0.0; 2] };
+    let mut spans = [NONE; ALONG - 1];
+    let mut line = 0;
+    while line < ALONG - 1 {
+        spans[line] = Span {
+            below: KNOTS[line],
+            inverse_step: 1.0 / (KNOTS[line + 1] - KNOTS[line]),
+            heights: [height(line), height(line + 1)],
+        };
+        line += 1;
+    }
+    spans
+};
+
+/// One over the volume of the tent over a knot, of 65536.
+const fn height(line: usize) -> f64 {
+    let (below, above) = reach(line);
+    1.0 / (65536.0 * STEP_AROUND * 0.5 * (below + above))
+}
+
+/// Where a direction lies between the knots.
+struct Knots<T> {
+    /// Entries at the corners and the weight of each.
+    entries: [usize; 4],
+    weights: [T; 4],
+}
+
+impl<'a, T: Real> Scattered<'a, T> {
+    /// `share` is what is scattered without absorption (times the lobe's weight); `passed` gives what each
+    /// class of a row lets pass. Chances are not yet against those of other lobes.
+    pub fn new(
+        table: &'a MedullaTable,
+        place: &Place<T>,
+        share: T,
+        passed: impl Fn(usize) -> Passed<T>,
+        centre: T,
+        mirrors: [T; 2],
+    ) -> Self {
+        let parts = four(|corner| {
+            let passed = passed(place.rows[corner]);
+            four(|class| {
+                let weight = share * place.parts[corner] * T::of(CLASS_SHARES[class]);
+                four(|channel| weight * passed[class][channel])
+            })
+        });
+        let sums = parts.iter().flatten().fold([T::ZERO; 4], |sum, part| four(|c| sum[c] + part[c]));
+        let [red, green, blue, chance] = sums;
+        Scattered { table, rows: place.rows, parts, chance, albedo: [red, green, blue], centre, mirrors }
+    }
+
+    /// Makes the chances sum to this.
+    pub fn set_chance(&mut self, chance: T) {
+        let scale = if self.chance > T::ZERO { chance / self.chance } else { T::ZERO };
+        for part in self.parts.iter_mut().flatten() {
+            part[3] = part[3] * scale;
+        }
+        self.chance = chance;
+    }
+
+    /// f cos(theta_i) per channel, and the density of being drawn.
+    #[inline(always)]
+    pub fn evaluate(&self, sin_theta_i: T, phi: T) -> [T; 4] {
+        let knots = self.knots(sin_theta_i, phi);
+        // Each corner by itself, and pairs of sums: the fewer wait for one another, the faster.
+        let low = self.corner(0, &knots) + self.corner(1, &knots);
+        let high = self.corner(2, &knots) + self.corner(3, &knots);
+        (low + high).into()
+    }
+
+    /// What [`Scattered::evaluate`] has from one row.
+    #[inline(always)]
+    fn corner(&self, corner: usize, knots: &Knots<T>) -> T::Four {
+        let densities: [T; 4] = self.densities(self.rows[corner], knots).into();
+        let parts = &self.parts[corner];
+        let part = |class: usize| T::Four::from(parts[class]) * T::Four::splat(densities[class]);
+        (part(0) + part(1)) + (part(2) + part(3))
+    }
+
+    #[inline(always)]
+    fn knots(&self, sin_theta_i: T, phi: T) -> Knots<T> {
+        let [mirror_around, mirror_along] = self.mirrors;
+        let mut turn = mirror_around * (phi - self.centre);
+        // Two directions and a centre, each within half a turn of 0.
+        for _ in 0..2 {
+            turn = if turn < T::ZERO { turn + T::TAU } else { turn };
+        }
+        let around = turn * T::of(1.0 / STEP_AROUND);
+        let (column, left) = around.whole();
+        let right = around - left;
+        let sin = mirror_along * sin_theta_i;
+        let line = knot_below(sin);
+        let Span { below, inverse_step, heights } = &SPANS[line];
+        let above = ((sin - T::of(*below)) * T::of(*inverse_step)).max(T::ZERO).min(T::ONE);
+        let (low, high) = ((T::ONE - above) * T::of(heights[0]), above * T::of(heights[1]));
+        // A whole turn is none.
+        let column = if column < AROUND { column } else { 0 };
+        let next = if column + 1 < AROUND { column + 1 } else { 0 };
+        let first = line * AROUND;
+        Knots {
+            entries: [first + column, first + next, first + AROUND + column, first + AROUND + next],
+            weights: [low * (T::ONE - right), low * right, high * (T::ONE - right), high * right],
+        }
+    }
+
+    /// Density of each class of a row, per steradian.
+    #[inline(always)]
+    fn densities(&self, row: usize, knots: &Knots<T>) -> T::Four {
+        let sums = &self.table.cumulative[row * CELLS..][..CELLS];
+        let corner = |corner: usize| {
+            let entry = knots.entries[corner];
+            // The sum before the first is 0, and so is, as it is written, that of the last.
+            let before = sums[if entry == 0 { CELLS - 1 } else { entry - 1 }];
+            let upto = sums[entry];
+            // In 32 bits, in which vectors are turned to floats; of which sums of 65536 count as 0.
+            let count = |class: usize| u32::from(upto[class]).wrapping_sub(before[class].into()) & 0xffff;
+            let counts = T::Four::of_counts(four(count));
+            counts * T::Four::splat(knots.weights[corner])
+        };
+        (corner(0) + corner(1)) + (corner(2) + corner(3))
+    }
+
+    /// The inclination and the azimuth of a direction drawn from three numbers in [0, 1): the first picks row and
+    /// class, the second the entry, the last two the place about its knot. `u[0]` is a part of this
+    /// lobe's chance.
+    pub fn sample(&self, u: [T; 4]) -> (Inclination<T>, T) {
+        let (corner, class) = self.chosen(u[0] * self.chance);
+        let entry = self.entry(self.rows[corner], class, (u[1] * T::of(65536.0)).whole().0.min(65535));
+        let line = entry / AROUND;
+        let [mirror_around, mirror_along] = self.mirrors;
+        let sin = T::of(KNOTS[line]) + slanted_tent(u[2], reach(line));
+        let sin = mirror_along * sin.max(-T::ONE).min(T::ONE);
+        let cos = ((T::ONE - sin) * (T::ONE + sin)).sqrt();
+        let turn = (T::of((entry % AROUND) as f64) + tent(u[3])) * T::of(STEP_AROUND);
+        (Inclination { sin, cos }, self.centre + mirror_around * turn)
+    }
+
+    /// The corner and class that a part of the chance falls on.
+    fn chosen(&self, left: T) -> (usize, usize) {
+        let chances = four(|corner| four(|class| self.parts[corner][class][3]));
+        let sums = four(|corner| {
+            let [a, b, c, d] = chances[corner];
+            (a + b) + (c + d)
+        });
+        let (corner, left) = counted(sums, left);
+        (corner, counted(chances[corner], left).0)
+    }
+
+    /// The entry that a count below 65536 falls on: the first whose sum is above it.
+    fn entry(&self, row: usize, class: usize, count: usize) -> usize {
+        let sums = &self.table.cumulative[row * CELLS..][..CELLS - 1];
+        sums.partition_point(|sum| usize::from(sum[class]) <= count)
+    }
+}
+
+/// Which of four chances a number falls on, the last there is when rounding leaves none, and by how much it
+/// is past those before. Counted and not searched: no branch of it could be foreseen.
+#[inline(always)]
+fn counted<T: Real>(chances: [T; 4], left: T) -> (usize, T) {
+    let [a, b, c, _] = chances;
+    let before = [T::ZERO, a, a + b, a + b + c];
+    let past =
+        usize::from(left >= before[1]) + usize::from(left >= before[2]) + usize::from(left >= before[3]);
+    let chosen = if chances[past] > T::ZERO {
+        past
+    } else {
+        chances.iter().rposition(|&chance| chance > T::ZERO).unwrap_or(0)
+    };
+    (chosen, left - before[chosen])
+}
+
+/// A number in [-1, 1] by the density `1 - |x|`.
+fn tent<T: Real>(u: T) -> T {
+    let u = T::TWO * u;
+    if u < T::ONE { u.sqrt() - T::ONE } else { T::ONE - (T::TWO - u).sqrt() }
+}
+
+/// A number by a density that falls in straight lines from 0 to nothing at these distances, of which one
+/// may be 0.
+fn slanted_tent<T: Real>(u: T, (below, above): (f64, f64)) -> T {
+    let u = u * T::of(below + above);
+    let (below, above) = (T::of(below), T::of(above));
+    if u < below {
+        below * ((u / below).sqrt() - T::ONE)
+    } else {
+        above * (T::ONE - (T::ONE - (u - below) / above).max(T::ZERO).sqrt())
+    }
+}
