@@ -45,9 +45,9 @@ pub struct MaterialFile {
     /// Colours from root to tip: how far along (0 to 1) and the colour there.
     pub color_ramp: Option<Vec<(f32, [f32; 3])>>,
 
-    /// Roughness along the fibre, above 0, at most 1.
+    /// Roughness along the fibre, 0.001..1.
     pub beta_m: Option<f32>,
-    /// Roughness around the fibre, above 0, at most 1.
+    /// Roughness around the fibre, 0.001..1.
     pub beta_n: Option<f32>,
     /// How much rougher TT and TRT are than R along the fibre.
     pub roughness_scales: Option<ScalesFile>,

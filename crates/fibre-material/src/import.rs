@@ -270,6 +270,12 @@ impl Import {
 }
 
 fn cycles(block: &CyclesBlock) -> Result<Imported, ScatteringError> {
+    if let Some(Degrees(offset)) = block.offset
+        && !(offset > -90.0 && offset < 90.0)
+    {
+        let range = "(-90, 90) degrees";
+        return Err(ScatteringError::OutOfRange { name: "offset", found: offset, range });
+    }
     let theirs = block.theirs();
     let parameters = theirs.parameters()?;
     let is_melanin = theirs.parametrization == CyclesParametrization::Melanin;

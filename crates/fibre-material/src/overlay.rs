@@ -1,6 +1,6 @@
 //! One material file laid over another.
 
-use crate::file::MaterialFile;
+use crate::file::{FieldName, MaterialFile};
 
 /// Takes each of the fields from `base` where `over` has none.
 macro_rules! fill {
@@ -38,8 +38,8 @@ impl MaterialFile {
         ways.into_iter().filter_map(|(way, used)| used.then_some(way)).collect()
     }
 
-    /// This over `base`: what is said here counts, the rest is the base's. A colour, a film or a core of fur
-    /// that is said here in another way than there takes its place.
+    /// This over `base`: what is said here counts, the rest is the base's. A colour, a film, a core of fur,
+    /// layers, white hairs or a field that are said here in another way than there take its place.
     #[must_use]
     pub fn over(mut self, mut base: MaterialFile) -> MaterialFile {
         if !self.ways().is_empty() {
@@ -61,6 +61,25 @@ impl MaterialFile {
         }
         if self.wet == Some(false) {
             base.film = None;
+        }
+        if self.film.is_some() && self.wet.is_none() {
+            base.wet = None;
+        }
+        if self.cuticle_layers.is_some()
+            && let Some(fur) = &mut base.fur
+        {
+            fur.cuticle_layers = None;
+        }
+        if self.fur.is_some_and(|fur| fur.cuticle_layers.is_some()) {
+            base.cuticle_layers = None;
+        }
+        if self.variation.is_some_and(|v| v.white_melanin.is_some() || v.white_color.is_some())
+            && let Some(variation) = &mut base.variation
+        {
+            (variation.white_melanin, variation.white_color) = (None, None);
+        }
+        if self.field == Some(FieldName::Near) {
+            base.nodes = None;
         }
         fill!(self, base;
             color, absorption, melanin, redness, eumelanin, pheomelanin, pigments, groom, texture, color_ramp,
@@ -110,5 +129,24 @@ mod tests {
         assert_eq!(both.ways(), ["color"]);
         assert_eq!(both.fur.unwrap().medulla_index, Some(1.0));
         assert!(over("medulla: {kappa: 0.5}", "fur: {medulla_index: 1}").fur.is_none());
+    }
+
+    /// What a file begins with cannot be taken back other than by saying it anew.
+    #[test]
+    fn nothing_said_anew_contradicts_what_it_takes_the_place_of() {
+        for (new, old) in [
+            ("film: {eta: 1.4}", "wet: false"),
+            ("wet: false", "film: {eta: 1.4}"),
+            ("cuticle_layers: 2", "fur: {cuticle_layers: 1}"),
+            ("fur: {cuticle_layers: 1}", "cuticle_layers: 2"),
+            ("variation: {white_melanin: 0.1}", "variation: {white: 0.2, white_color: [0.9, 0.9, 0.8]}"),
+            ("variation: {white_color: [0.9, 0.9, 0.8]}", "variation: {white: 0.2, white_melanin: 0.1}"),
+            ("field: near", "field: far\nnodes: 8"),
+            ("medulla: {kappa: 0.5}", "fur: {medulla_index: 1}"),
+            ("groom: {melanin: 0.5}", "groom: {color: [1, 1, 1]}"),
+        ] {
+            let material = over(new, old).material(&crate::Picture::unread);
+            assert!(material.is_ok(), "{new} over {old}: {material:?}");
+        }
     }
 }

@@ -64,8 +64,9 @@
 //!
 //! Without absorption a fibre returns all light, within 1e-4, for every roughness, tilt, index,
 //! surface, cross-section, offset and direction: the longitudinal term is exact and the residual lobe holds
-//! what R, TT and TRT leave over. Parameters out of range are refused by name, never brought to a bound. `sample` draws from exactly the density `pdf` returns. Nothing returns NaN for
-//! finite unit directions. [`ReferenceBcsdf`] is the same code in `f64`, to measure it by.
+//! what R, TT and TRT leave over. Parameters out of range are refused by name, never brought to a bound.
+//! `sample` draws from exactly the density `pdf` returns. Nothing returns NaN for finite unit directions.
+//! [`ReferenceBcsdf`] is the same code in `f64`, to measure it by.
 
 mod absorption;
 mod arithmetic;

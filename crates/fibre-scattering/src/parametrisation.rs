@@ -35,18 +35,20 @@ pub use materialx::{MaterialXHair, MaterialXMelanin, MaterialXRoughness};
 pub use mitsuba::MitsubaHair;
 pub use pbrt::PbrtHair;
 pub use renderman::PxrMarschnerHair;
+use roughness::of_spread;
 pub use roughness::{beta_m_from_variance, beta_n_from_scale};
 
 use glam::Vec3;
 
 use crate::error::ScatteringError;
+use crate::range;
 
 /// The grey a tint amounts to. The model's lobe weights are numbers: a lobe cannot be tinted, other than by
 /// absorption.
 fn grey(name: &'static str, tint: Vec3) -> Result<f32, ScatteringError> {
     let [red, green, blue] = tint.to_array();
     for channel in [red, green, blue] {
-        crate::range::not_negative(name, channel)?;
+        range::not_negative(name, channel)?;
     }
     if red == green && green == blue {
         Ok(red)
@@ -57,6 +59,13 @@ fn grey(name: &'static str, tint: Vec3) -> Result<f32, ScatteringError> {
             range: "greys: the same in red, green and blue",
         })
     }
+}
+
+/// A tilt in radians from one in degrees, refused in the degrees it was given in.
+fn tilt(name: &'static str, degrees: f32) -> Result<f32, ScatteringError> {
+    let range = "(-90, 90) degrees";
+    range::tilt(name, degrees.to_radians())
+        .map_err(|_| ScatteringError::OutOfRange { name, found: degrees, range })
 }
 
 /// A control this model has no counterpart for: only the value that switches it off.

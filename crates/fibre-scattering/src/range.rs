@@ -1,5 +1,6 @@
 //! Values held to their ranges: refused by name, never brought to the nearer bound.
 
+use std::f32::consts::FRAC_PI_2;
 use std::ops::RangeInclusive;
 
 use glam::Vec3;
@@ -53,6 +54,15 @@ pub(crate) fn medulla_absorption(sigma_a: Vec3) -> Result<(), ScatteringError> {
 /// place it.
 pub(crate) fn roughness(name: &'static str, found: f32) -> Result<f32, ScatteringError> {
     within(name, found, 1e-3..=1.0, "[0.001, 1]")
+}
+
+/// A tilt in radians.
+pub(crate) fn tilt(name: &'static str, found: f32) -> Result<f32, ScatteringError> {
+    if found > -FRAC_PI_2 && found < FRAC_PI_2 {
+        Ok(found)
+    } else {
+        Err(ScatteringError::OutOfRange { name, found, range: "(-pi/2, pi/2)" })
+    }
 }
 
 /// An index of refraction over that of air.

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{absent, grey};
+use super::{absent, grey, tilt};
 use crate::absorption::{Pigments, absorption_from_color};
 use crate::error::ScatteringError;
 use crate::hair::parameters::HairParameters;
@@ -89,8 +89,8 @@ impl ArnoldHair {
         let parameters = HairParameters {
             beta_m: self.roughness,
             beta_n: azimuthal,
-            alpha: self.shift.to_radians(),
-            eta: self.ior,
+            alpha: tilt("shift", self.shift)?,
+            eta: range::index("ior", self.ior)?,
             sigma_a: base + melanin,
             lobe_weights: [
                 grey("specular_tint", self.specular_tint)?,

@@ -43,7 +43,8 @@ pub struct CyclesHair {
     /// Roughness around the fibre, in [0.001, 1].
     pub radial_roughness: f32,
     /// How much smoother the surface reflects than the rest scatters: R's roughness is `roughness` times
-    /// `1 - coat`. In [0, 1), and not so near 1 that R is more than 4 times narrower than the rest.
+    /// `1 - coat`. In [0, 1), and not so near 1 that R is more than 4 times narrower than
+    /// without it, or smoother than 0.001.
     pub coat: f32,
     /// Index of refraction.
     pub ior: f32,
@@ -95,8 +96,8 @@ impl CyclesHair {
         let parameters = HairParameters {
             beta_m,
             beta_n: self.radial_roughness,
-            alpha: self.offset,
-            eta: self.ior,
+            alpha: range::tilt("offset", self.offset)?,
+            eta: range::index("ior", self.ior)?,
             sigma_a,
             roughness_scales,
             ..HairParameters::default()
@@ -107,16 +108,16 @@ impl CyclesHair {
 
     /// R's roughness, and the scales that leave TT and TRT those of `roughness`.
     fn coated(&self) -> Result<(f32, RoughnessScales), ScatteringError> {
-        let range = "[0, 1), with R at most 4 times narrower than without";
-        range::within("coat", self.coat, 0.0..=1.0, range)?;
+        let words = "[0, 1), with R at most 4 times narrower than without and not smoother than 0.001";
+        range::within("coat", self.coat, 0.0..=1.0, words)?;
         if self.coat == 0.0 {
             return Ok((self.roughness, RoughnessScales::default()));
         }
         let beta_m = self.roughness * (1.0 - self.coat);
         let variance = |beta: f32| longitudinal_variance(f64::from(beta));
         let narrower = (variance(self.roughness) / variance(beta_m)).sqrt();
-        if !(0.0..=4.0).contains(&narrower) {
-            return Err(ScatteringError::OutOfRange { name: "coat", found: self.coat, range });
+        if !(0.0..=4.0).contains(&narrower) || range::roughness("coat", beta_m).is_err() {
+            return Err(ScatteringError::OutOfRange { name: "coat", found: self.coat, range: words });
         }
         let narrower = narrower as f32;
         Ok((beta_m, RoughnessScales { tt: 0.5 * narrower, trt: 2.0 * narrower }))

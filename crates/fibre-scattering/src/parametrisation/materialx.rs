@@ -5,7 +5,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 use glam::Vec3;
 
 use super::{absent, grey};
-use super::{beta_m_from_variance, beta_n_from_scale};
+use super::{beta_m_from_variance, beta_n_from_scale, of_spread};
 use crate::absorption::Pigments;
 use crate::error::ScatteringError;
 use crate::hair::parameters::{HairParameters, RoughnessScales, azimuthal_deviation, longitudinal_variance};
@@ -32,7 +32,7 @@ pub struct MaterialXHair {
     pub roughness_tt: [f32; 2],
     /// (v, s) of TRT and of the residual.
     pub roughness_trt: [f32; 2],
-    /// Tilt of the scales, in [0, 1] for -pi/2 to pi/2; 0.5 is none.
+    /// Tilt of the scales, in (0, 1) for -pi/2 to pi/2; 0.5 is none. (At 0 and 1 scales would stand upright.)
     pub cuticle_angle: f32,
     /// Absorption per fibre radius, at least 0. (The specification says diameter; its shader says radius.)
     pub absorption_coefficient: Vec3,
@@ -66,8 +66,8 @@ impl MaterialXHair {
     /// numbers: a mean would be another colour in silence), or an s that is not the same for all lobes.
     pub fn parameters(&self) -> Result<HairParameters, ScatteringError> {
         let [v, s] = self.roughness_r;
-        let beta_m = beta_m_from_variance(v)?;
-        let beta_n = beta_n_from_scale(s)?;
+        let beta_m = of_spread("roughness_R v", v, beta_m_from_variance(v), "[5.2826e-7, 27.436]")?;
+        let beta_n = of_spread("roughness_R s", s, beta_n_from_scale(s), "[2.6620e-4, 6.831]")?;
         for (name, found) in
             [("roughness_TT s", self.roughness_tt[1]), ("roughness_TRT s", self.roughness_trt[1])]
         {
@@ -78,9 +78,10 @@ impl MaterialXHair {
         }
         let scale = |name, of: [f32; 2]| {
             let scale = (f64::from(of[0]) / f64::from(v)).sqrt() as f32;
-            let range = "(0, 64] times the v of roughness_R";
-            if scale > 0.0 && scale <= 8.0 {
-                Ok(scale)
+            let range = "[0.01, 64] times the v of roughness_R";
+            // Files give six digits.
+            if (0.1 * (1.0 - 1e-5)..=8.0 * (1.0 + 1e-5)).contains(&scale) {
+                Ok(scale.clamp(0.1, 8.0))
             } else {
                 Err(ScatteringError::OutOfRange { name, found: of[0], range })
             }
@@ -90,12 +91,16 @@ impl MaterialXHair {
             trt: scale("roughness_TRT v", self.roughness_trt)?,
         };
         let trt = grey("tint_TRT", self.tint_trt)?;
-        range::share("cuticle_angle", self.cuticle_angle)?;
+        let tilted = self.cuticle_angle > 0.0 && self.cuticle_angle < 1.0;
+        if !tilted {
+            let (name, range) = ("cuticle_angle", "(0, 1)");
+            return Err(ScatteringError::OutOfRange { name, found: self.cuticle_angle, range });
+        }
         let parameters = HairParameters {
             beta_m,
             beta_n,
             alpha: self.cuticle_angle * PI - FRAC_PI_2,
-            eta: self.ior,
+            eta: range::index("ior", self.ior)?,
             sigma_a: range::absorption(self.absorption_coefficient)?,
             lobe_weights: [grey("tint_R", self.tint_r)?, grey("tint_TT", self.tint_tt)?, trt, trt, 1.0],
             roughness_scales,
@@ -150,9 +155,9 @@ pub struct MaterialXRoughness {
     pub longitudinal: f32,
     /// Roughness around the fibre, in [0.001, 1]: beta_n.
     pub azimuthal: f32,
-    /// Factor on TT's deviation, in (0, 8].
+    /// Factor on TT's deviation, in [0.1, 8].
     pub scale_tt: f32,
-    /// Factor on TRT's deviation, in (0, 8].
+    /// Factor on TRT's deviation, in [0.1, 8].
     pub scale_trt: f32,
 }
 
@@ -173,7 +178,7 @@ impl MaterialXRoughness {
             range::roughness(name, found)?;
         }
         for (name, found) in [("scale_TT", self.scale_tt), ("scale_TRT", self.scale_trt)] {
-            range::within(name, found, f32::MIN_POSITIVE..=8.0, "(0, 8]")?;
+            range::within(name, found, 0.1..=8.0, "[0.1, 8]")?;
         }
         let v = longitudinal_variance(f64::from(self.longitudinal));
         let s = azimuthal_deviation(f64::from(self.azimuthal)) as f32;

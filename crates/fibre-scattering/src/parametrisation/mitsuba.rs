@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::exclusive;
+use super::{exclusive, tilt};
 use crate::absorption::Pigments;
 use crate::error::ScatteringError;
 use crate::hair::parameters::HairParameters;
@@ -69,6 +69,11 @@ impl MitsubaHair {
         for (name, found) in [("int_ior", self.int_ior), ("ext_ior", self.ext_ior)] {
             range::within(name, found, 1.0..=10.0, "[1, 10]")?;
         }
+        let eta = self.int_ior / self.ext_ior;
+        if range::index("eta", eta).is_err() {
+            let range = "[1.0001, 3] times ext_ior";
+            return Err(ScatteringError::OutOfRange { name: "int_ior", found: self.int_ior, range });
+        }
         for (name, found) in [
             ("longitudinal_roughness", self.longitudinal_roughness),
             ("azimuthal_roughness", self.azimuthal_roughness),
@@ -78,8 +83,8 @@ impl MitsubaHair {
         let parameters = HairParameters {
             beta_m: self.longitudinal_roughness,
             beta_n: self.azimuthal_roughness,
-            alpha: -self.scale_tilt.to_radians(),
-            eta: self.int_ior / self.ext_ior,
+            alpha: -tilt("scale_tilt", self.scale_tilt)?,
+            eta,
             sigma_a,
             ..HairParameters::default()
         };

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::exclusive;
+use super::{exclusive, tilt};
 use crate::absorption::{Pigments, absorption_from_color};
 use crate::error::ScatteringError;
 use crate::hair::parameters::HairParameters;
@@ -74,7 +74,7 @@ impl PbrtHair {
         let parameters = HairParameters {
             beta_m: self.beta_m,
             beta_n: self.beta_n,
-            alpha: -self.alpha.to_radians(),
+            alpha: -tilt("alpha", self.alpha)?,
             eta: self.eta,
             sigma_a,
             ..HairParameters::default()

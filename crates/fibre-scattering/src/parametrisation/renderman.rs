@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::{absent, beta_m_from_variance, beta_n_from_scale};
+use super::{absent, beta_m_from_variance, beta_n_from_scale, of_spread, tilt};
 use crate::error::ScatteringError;
 use crate::hair::parameters::{HairParameters, RoughnessScales};
 use crate::range;
@@ -85,33 +85,33 @@ impl PxrMarschnerHair {
         absent("diffuseGain", self.diffuse_gain, 0.0, "{0}: fibres of this model have no diffuse part")?;
         let variance = |name, degrees: f32| {
             let radians =
-                range::within(name, degrees, f32::MIN_POSITIVE..=90.0, "(0, 90] degrees")?.to_radians();
+                range::within(name, degrees, f32::MIN_POSITIVE..=90.0, "[0.0417, 90] degrees")?.to_radians();
             Ok(radians * radians)
         };
         let v = variance("specularConeAngleR", self.specular_cone_angle_r)?;
-        let scale = |name, degrees| {
+        let scale = |name, degrees: f32| {
             let scale = (variance(name, degrees)? / v).sqrt();
-            range::within(name, scale, f32::MIN_POSITIVE..=8.0, "(0, 8] times specularConeAngleR")
+            let range = "[0.1, 8] times specularConeAngleR";
+            range::within("", scale, 0.1..=8.0, range)
+                .map_err(|_| ScatteringError::OutOfRange { name, found: degrees, range })
         };
-        let width = range::within(
-            "specularGlintWidth",
-            self.specular_glint_width,
-            f32::MIN_POSITIVE..=180.0,
-            "(0, 180] degrees",
-        )?;
+        let (cone, width) = (self.specular_cone_angle_r, self.specular_glint_width);
+        let glint = ("specularGlintWidth", "[0.0153, 180] degrees");
+        range::within(glint.0, width, f32::MIN_POSITIVE..=180.0, glint.1)?;
+        let aspect = ("specularEccentricity", self.specular_eccentricity);
         let roughness_scales = RoughnessScales {
             tt: scale("specularConeAngleTT", self.specular_cone_angle_tt)?,
             trt: scale("specularConeAngleTRT", self.specular_cone_angle_trt)?,
         };
         let parameters = HairParameters {
-            beta_m: beta_m_from_variance(v)?,
-            beta_n: beta_n_from_scale(width.to_radians())?,
-            alpha: -self.specular_offset.to_radians(),
+            beta_m: of_spread("specularConeAngleR", cone, beta_m_from_variance(v), "[0.0417, 90] degrees")?,
+            beta_n: of_spread(glint.0, width, beta_n_from_scale(width.to_radians()), glint.1)?,
+            alpha: -tilt("specularOffset", self.specular_offset)?,
             eta: self.specular_ior,
             sigma_a: self.absorption()?,
             lobe_weights: self.weights()?,
             roughness_scales,
-            aspect: self.specular_eccentricity,
+            aspect: range::within(aspect.0, aspect.1, 0.1..=1.0, "[0.1, 1]")?,
             ..HairParameters::default()
         };
         parameters.check()?;

@@ -23,6 +23,21 @@ pub fn beta_n_from_scale(s: f32) -> Result<f32, ScatteringError> {
     refused("azimuthal scale s", s, azimuthal_deviation, "(0, 6.831], which beta_n in (0, 1] gives")
 }
 
+/// A roughness that was worked out from `found`, which is what is refused where the roughness is below 0.001.
+pub(super) fn of_spread(
+    name: &'static str,
+    found: f32,
+    roughness: Result<f32, ScatteringError>,
+    range: &'static str,
+) -> Result<f32, ScatteringError> {
+    const LEAST: f32 = 1e-3;
+    match roughness {
+        // That of 0.001 itself may come back less by its rounding.
+        Ok(beta) if beta >= LEAST * (1.0 - 1e-6) => Ok(beta.max(LEAST)),
+        _ => Err(ScatteringError::OutOfRange { name, found, range }),
+    }
+}
+
 fn refused(
     name: &'static str,
     found: f32,

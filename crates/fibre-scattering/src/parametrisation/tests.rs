@@ -144,11 +144,11 @@ fn materialx_s_inputs_without_a_counterpart_are_refused() {
     assert_eq!(grey.parameters().unwrap().lobe_weights, [1.0, 1.0, 0.5, 0.5, 1.0]);
     assert!(refused(MaterialXHair::default().parameters()).starts_with("roughness_TT s must lie in"));
     let rough = MaterialXHair { roughness_r: [28.0, r[1]], ..hair };
-    assert!(refused(rough.parameters()).starts_with("longitudinal variance v must lie in (0, 27.436]"));
+    assert!(refused(rough.parameters()).starts_with("roughness_R v must lie in [5.2826e-7, 27.436]"));
     let wide = MaterialXHair { roughness_r: [r[0], 7.0], ..hair };
-    assert!(refused(wide.parameters()).starts_with("azimuthal scale s must lie in (0, 6.831]"));
+    assert!(refused(wide.parameters()).starts_with("roughness_R s must lie in [2.6620e-4, 6.831]"));
     let turned = MaterialXHair { cuticle_angle: 1.1, ..hair };
-    assert!(refused(turned.parameters()).starts_with("cuticle_angle must lie in [0, 1]"));
+    assert!(refused(turned.parameters()).starts_with("cuticle_angle must lie in (0, 1)"));
     let weighted = HairParameters { lobe_weights: [1.0, 1.0, 1.0, 0.0, 1.0], ..HairParameters::default() };
     assert!(MaterialXHair::from_parameters(&weighted).is_err());
 }
@@ -156,8 +156,8 @@ fn materialx_s_inputs_without_a_counterpart_are_refused() {
 proptest! {
     #[test]
     fn materialx_both_ways(
-        beta_m in 0.002_f32..=1.0, beta_n in 0.002_f32..=1.0, alpha in -1.5_f32..1.5, eta in 1.0001_f32..=3.0,
-        tt in 0.1_f32..4.0, trt in 0.1_f32..4.0, weights in prop::array::uniform3(0.0_f32..2.0),
+        beta_m in 0.001_f32..=1.0, beta_n in 0.001_f32..=1.0, alpha in -1.5_f32..1.5, eta in 1.0001_f32..=3.0,
+        tt in 0.1_f32..=8.0, trt in 0.1_f32..=8.0, weights in prop::array::uniform3(0.0_f32..2.0),
     ) {
         let [r, w_tt, w_trt] = weights;
         let parameters = HairParameters {
@@ -230,5 +230,67 @@ fn renderman_s_cones_become_variances() {
     // TRT of 0.4 is 2.5 times the square of TT's 0.4.
     assert!((hair.lobe_weights[2] - 2.5).abs() < 1e-5);
     let sharp = PxrMarschnerHair { specular_cone_angle_r: 0.0, ..PxrMarschnerHair::default() };
-    assert!(refused(sharp.parameters()).starts_with("specularConeAngleR must lie in (0, 90] degrees"));
+    assert!(refused(sharp.parameters()).starts_with("specularConeAngleR must lie in"));
+}
+
+/// Who wrote `scale_tilt: 120` has no `alpha` to look for.
+#[test]
+fn refusals_have_the_system_s_own_names_and_units() {
+    let arnold = |change: fn(&mut ArnoldHair)| {
+        let mut hair = ArnoldHair::default();
+        change(&mut hair);
+        hair.parameters()
+    };
+    let cycles = |change: fn(&mut CyclesHair)| {
+        let mut hair = CyclesHair::default();
+        change(&mut hair);
+        hair.parameters()
+    };
+    let mitsuba = |change: fn(&mut MitsubaHair)| {
+        let mut hair = MitsubaHair::default();
+        change(&mut hair);
+        hair.parameters()
+    };
+    let renderman = |change: fn(&mut PxrMarschnerHair)| {
+        let mut hair = PxrMarschnerHair::default();
+        change(&mut hair);
+        hair.parameters()
+    };
+    let materialx = |change: fn(&mut MaterialXHair)| {
+        let [roughness_r, roughness_tt, roughness_trt] = MaterialXRoughness::default().pairs().unwrap();
+        let mut hair =
+            MaterialXHair { roughness_r, roughness_tt, roughness_trt, ..MaterialXHair::default() };
+        change(&mut hair);
+        hair.parameters()
+    };
+    for (parameters, told) in [
+        (arnold(|h| h.shift = 120.0), "shift must lie in (-90, 90) degrees, found 120"),
+        (arnold(|h| h.ior = 1.0), "ior must lie in [1.0001, 3], found 1"),
+        (cycles(|h| h.offset = 1.6), "offset must lie in (-pi/2, pi/2), found 1.6"),
+        (cycles(|h| h.ior = 5.0), "ior must lie in [1.0001, 3], found 5"),
+        (cycles(|h| (h.roughness, h.coat) = (0.002, 0.6)), "coat must lie in [0, 1)"),
+        (mitsuba(|h| h.scale_tilt = -95.0), "scale_tilt must lie in (-90, 90) degrees, found -95"),
+        (mitsuba(|h| h.int_ior = 1.0), "int_ior must lie in [1.0001, 3] times ext_ior, found 1"),
+        (renderman(|h| h.specular_offset = 91.0), "specularOffset must lie in (-90, 90) degrees, found 91"),
+        (renderman(|h| h.specular_eccentricity = 0.0), "specularEccentricity must lie in [0.1, 1], found 0"),
+        (renderman(|h| h.specular_glint_width = 0.01), "specularGlintWidth must lie in [0.0153, 180] degrees"),
+        (renderman(|h| h.specular_cone_angle_r = 120.0), "specularConeAngleR must lie in [0.0417, 90] degrees, found 120"),
+        (renderman(|h| h.specular_cone_angle_tt = 0.7), "specularConeAngleTT must lie in [0.1, 8] times"),
+        (materialx(|h| h.ior = 0.5), "ior must lie in [1.0001, 3], found 0.5"),
+        (materialx(|h| h.cuticle_angle = 0.0), "cuticle_angle must lie in (0, 1), found 0"),
+        (materialx(|h| h.roughness_r[0] = 1e-8), "roughness_R v must lie in [5.2826e-7, 27.436]"),
+        (materialx(|h| h.roughness_tt[0] = 1e-9), "roughness_TT v must lie in [0.01, 64] times"),
+    ] {
+        let found = refused(parameters);
+        assert!(found.starts_with(told), "{found}, not {told}");
+    }
+    let smooth = PxrMarschnerHair {
+        specular_cone_angle_r: 0.03,
+        specular_cone_angle_tt: 0.03,
+        specular_cone_angle_trt: 0.03,
+        ..PxrMarschnerHair::default()
+    };
+    assert!(refused(smooth.parameters()).starts_with("specularConeAngleR must lie in [0.0417, 90] degrees"));
+    let turned = PbrtHair { alpha: 100.0, ..PbrtHair::default() };
+    assert_eq!(refused(turned.parameters()), "alpha must lie in (-90, 90) degrees, found 100");
 }

@@ -11,11 +11,11 @@ pub(crate) struct Material {
     #[arg(long, value_name = "SOURCE", value_parser = source)]
     pub(crate) material: Option<Source>,
 
-    /// Roughness along the fibre, over 0 to 1
+    /// Roughness along the fibre, 0.001 to 1
     #[arg(long, value_name = "BETA", default_value_t = 0.3, requires = "material")]
     pub(crate) beta_m: f32,
 
-    /// Roughness around the fibre, over 0 to 1
+    /// Roughness around the fibre, 0.001 to 1
     #[arg(long, value_name = "BETA", default_value_t = 0.3, requires = "material")]
     pub(crate) beta_n: f32,
 
