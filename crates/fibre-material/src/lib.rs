@@ -5,17 +5,24 @@
 //! or along a strand is worked out there, once, and what does not is held once.
 //!
 //! ```
-//! use fibre_material::Material;
+//! use fibre_material::{Material, Varying};
 //!
 //! let text = "preset: human-brown\nvariation: {white: 0.15, pigment: 0.3}\nbeta_m: 0.25\n";
 //! let greying = Material::from_yaml(text, "greying.yaml")?;
 //! assert_eq!(greying.variation.white.share, 0.15);
 //!
+//! let points = (0..3000).map(|i| glam::Vec3::new((i / 3) as f32, (i % 3) as f32, 0.0)).collect();
+//! let groom = groom::Groom::new((0..=1000).map(|strand| 3 * strand).collect(), points)?;
+//! let dressed = greying.dress(&groom)?;
+//! let Varying::Strand(absorption) = &dressed.absorption else { panic!("every strand is its own") };
+//! let white = absorption.iter().filter(|absorption| absorption.cortex() == glam::Vec3::ZERO).count();
+//! assert!((100..200).contains(&white));
+//!
 //! let fault = Material::from_yaml("beta_m: 0.3\nmelanine: 0.4\n", "a.yaml").unwrap_err();
 //! assert_eq!(fault.to_string(), "a.yaml:2:1: unknown key `melanine`, did you mean `melanin`?");
 //! let fault = Material::from_yaml("eta: 1.55\nbeta_m: 7\n", "a.yaml").unwrap_err();
 //! assert_eq!(fault.to_string(), "a.yaml:2:9: beta_m: must lie in [0.001, 1], found 7");
-//! # Ok::<(), fibre_material::MaterialError>(())
+//! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
 mod build;

@@ -1,5 +1,7 @@
 //! Materials from files, texts and presets.
 
+use std::fs::File;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -10,6 +12,9 @@ use crate::{Material, MaterialError, Picture, Preset};
 
 /// Material files that begin with each other, at most this many deep.
 const DEEPEST: u32 = 8;
+
+/// A material file is no longer; a device, or a file of another kind named by mistake, may have no end.
+const LONGEST: u64 = 1 << 20;
 
 impl MaterialFile {
     /// Reads a text; `name` is what messages call it.
@@ -56,7 +61,8 @@ impl MaterialFile {
                 })?;
                 let (file, text) = read(&path)?;
                 let folder = path.parent().unwrap_or(Path::new(""));
-                let under = file.resolved_within(folder, deeper)?;
+                let under =
+                    file.resolved_within(folder, deeper).map_err(|error| begun(error, &path, &text))?;
                 // Its faults are told here, where its text is at hand.
                 under.checked(&path, &text)?;
                 under
@@ -109,11 +115,29 @@ impl MaterialFile {
 /// A material file and its text.
 fn read(path: &Path) -> Result<(MaterialFile, String), MaterialError> {
     let io = |source| MaterialError::Io { path: path.to_owned(), source };
-    let text = String::from_utf8(std::fs::read(path).map_err(io)?).map_err(|error| {
-        let message = format!("byte {} is not UTF-8, as YAML has to be", error.utf8_error().valid_up_to());
+    let fault = |message| {
         MaterialError::File(vec![Fault { file: path.to_owned(), place: None, key: String::new(), message }])
+    };
+    let mut bytes = Vec::new();
+    File::open(path).map_err(io)?.take(LONGEST + 1).read_to_end(&mut bytes).map_err(io)?;
+    if bytes.len() as u64 > LONGEST {
+        return Err(fault(format!("more than {LONGEST} bytes, expected a material file")));
+    }
+    let text = String::from_utf8(bytes).map_err(|error| {
+        fault(format!("byte {} is not UTF-8, as YAML has to be", error.utf8_error().valid_up_to()))
     })?;
     Ok((MaterialFile::from_yaml(&text, &path.to_string_lossy())?, text))
+}
+
+/// A fault of what a file begins with, told at the key it begins by; one of another file's is told already.
+fn begun(error: MaterialError, path: &Path, text: &str) -> MaterialError {
+    let (key, message) = match error {
+        MaterialError::Value { what, found, expected } => (what, format!("is {found}, expected {expected}")),
+        MaterialError::Preset { .. } => ("preset".to_owned(), error.to_string()),
+        MaterialError::Io { .. } => ("file".to_owned(), error.to_string()),
+        told => return told,
+    };
+    placed(vec![(key, message)], path, text)
 }
 
 /// Faults by key, with the places of their values.
@@ -137,7 +161,7 @@ impl Material {
     pub fn open(path: &Path) -> Result<Material, MaterialError> {
         let (file, text) = read(path)?;
         let folder = path.parent().unwrap_or(Path::new(""));
-        file.resolved(folder)?.finished(path, &text)
+        file.resolved(folder).map_err(|error| begun(error, path, &text))?.finished(path, &text)
     }
 
     /// The material of a text; `name` is what messages call it. Paths in it count from where the program
@@ -146,7 +170,9 @@ impl Material {
     /// # Errors
     /// As [`Material::open`].
     pub fn from_yaml(text: &str, name: &str) -> Result<Material, MaterialError> {
-        MaterialFile::from_yaml(text, name)?.resolved(Path::new(""))?.finished(Path::new(name), text)
+        let path = Path::new(name);
+        let file = MaterialFile::from_yaml(text, name)?.resolved(Path::new(""));
+        file.map_err(|error| begun(error, path, text))?.finished(path, text)
     }
 
     /// The material called `name`, one of [`Material::preset_names`].

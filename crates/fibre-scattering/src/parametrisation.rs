@@ -64,8 +64,11 @@ fn grey(name: &'static str, tint: Vec3) -> Result<f32, ScatteringError> {
 /// A tilt in radians from one in degrees, refused in the degrees it was given in.
 fn tilt(name: &'static str, degrees: f32) -> Result<f32, ScatteringError> {
     let range = "(-90, 90) degrees";
-    range::tilt(name, degrees.to_radians())
-        .map_err(|_| ScatteringError::OutOfRange { name, found: degrees, range })
+    range::tilt(name, degrees.to_radians()).map_err(|_| ScatteringError::OutOfRange {
+        name,
+        found: degrees,
+        range,
+    })
 }
 
 /// A control this model has no counterpart for: only the value that switches it off.

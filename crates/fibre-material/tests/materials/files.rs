@@ -103,11 +103,14 @@ fn faults_have_their_file_line_key_value_and_range() {
         ("cycles: {}\npbrt: {}", "a.yaml:2:7: pbrt: contradicts `cycles`; keep one"),
         ("cycles: {roughness: 7}", "a.yaml:1:21: cycles.roughness: must lie in [0.001, 1], found 7"),
         ("cycles: {offset: 120}", "a.yaml:1:18: cycles.offset: must lie in (-90, 90) degrees, found 120"),
-        ("mitsuba: {scale_tilt: 120}", "a.yaml:1:23: mitsuba.scale_tilt: must lie in (-90, 90) degrees, found 120"),
+        (
+            "mitsuba: {scale_tilt: 120}",
+            "a.yaml:1:23: mitsuba.scale_tilt: must lie in (-90, 90) degrees, found 120",
+        ),
         ("arnold: {ior: 0}", "a.yaml:1:15: arnold.ior: must lie in [1.0001, 3], found 0"),
         ("cycles: {rough: 7}", "cycles: unknown key `rough`, expected one of `parametrization`"),
         ("renderman: {specularConeAngle: 7}", "did you mean `specularConeAngleR`?"),
-        ("preset: default\ncycles: {}", "cycles is beside `preset` or `file`"),
+        ("preset: default\ncycles: {}", "a.yaml:2:9: cycles: is beside `preset` or `file`"),
         ("medulla: {kappa: 1.2}", "a.yaml:1:18: medulla.kappa: "),
         ("medulla: {}\nfur: {}", "medulla: contradicts `fur`; keep one"),
         ("fur: {medulla_index: 2}", "a.yaml:1:22: fur.medulla_index: is 2, expected 0..1"),
@@ -129,8 +132,12 @@ fn faults_have_their_file_line_key_value_and_range() {
         ("along: {absorption: [[1, 1], [0, 2]]}", "a.yaml:1:21: along.absorption: ramp is `1:1,0:2`"),
         ("color_ramp: [[0, [2, 0, 0]]]", "a.yaml:1:13: color_ramp: "),
         ("nodes: 8", "a.yaml:1:8: nodes: needs `field: far` beside it"),
+        ("eta: 1.5\nfile: none.yaml", "a.yaml:2:7: file: none.yaml: No such file"),
         ("field: fra", "unknown word `fra`, did you mean `far`?"),
-        ("preset: human-bron", "unknown preset `human-bron`, did you mean `human-brown`?"),
+        (
+            "preset: human-bron",
+            "a.yaml:1:9: preset: unknown preset `human-bron`, did you mean `human-brown`?",
+        ),
         ("texture: {file: nowhere.png}", "a.yaml:1:17: texture.file: nowhere.png: No such file"),
         ("beta_m: 0.3\nbeta_m: 0.3", "a.yaml:2:1: the key `beta_m` is there twice"),
         ("colour: [1, 1, 1]", "a.yaml:1:1: unknown key `colour`, did you mean `color`?"),
@@ -184,8 +191,12 @@ fn files_begin_with_files_and_presets() {
     std::fs::write(path("round.yaml"), "file: round.yaml\n").unwrap();
     let told = Material::open(&path("round.yaml")).unwrap_err().to_string();
     assert!(told.contains("files that do not begin with each other"), "{told}");
+    assert!(told.contains("round.yaml:1:7: file: "), "{told}");
     let told = Material::open(&path("none.yaml")).unwrap_err().to_string();
     assert!(told.contains("none.yaml: No such file"), "{told}");
+    std::fs::write(path("endless.yaml"), "#".repeat(2 << 20)).unwrap();
+    let told = Material::open(&path("endless.yaml")).unwrap_err().to_string();
+    assert!(told.ends_with("endless.yaml: more than 1048576 bytes, expected a material file"), "{told}");
     // A fault in what a file begins with is told where it is.
     std::fs::write(path("deeper/base.yaml"), "\nbeta_m: 2\n").unwrap();
     let told = Material::open(&path("own.yaml")).unwrap_err().to_string();
@@ -234,6 +245,25 @@ fn values() -> impl Strategy<Value = String> {
             format!("{{{}}}", pairs.join(", "))
         })
     })
+}
+
+#[test]
+fn texts_made_to_exhaust_the_reader_end_soon() {
+    let bomb = (1..12).fold("lobes: &a0 [x, x]\n".to_owned(), |text, i| {
+        let all = vec![format!("*a{}", i - 1); 9].join(", ");
+        format!("{text}k{i}: &a{i} [{all}]\n")
+    });
+    for text in [
+        "- ".repeat(200_000),
+        "a: ".repeat(100_000),
+        "? ".repeat(200_000),
+        "[".repeat(200_000),
+        format!("color: {}", "&a ".repeat(100_000)),
+        format!("color_ramp: [{}]", "[0, [0, 0, 0]], ".repeat(30_000)),
+        bomb,
+    ] {
+        assert!(Material::from_yaml(&text, "a.yaml").is_err(), "{}", &text[..40]);
+    }
 }
 
 proptest! {

@@ -92,8 +92,11 @@ impl PxrMarschnerHair {
         let scale = |name, degrees: f32| {
             let scale = (variance(name, degrees)? / v).sqrt();
             let range = "[0.1, 8] times specularConeAngleR";
-            range::within("", scale, 0.1..=8.0, range)
-                .map_err(|_| ScatteringError::OutOfRange { name, found: degrees, range })
+            range::within("", scale, 0.1..=8.0, range).map_err(|_| ScatteringError::OutOfRange {
+                name,
+                found: degrees,
+                range,
+            })
         };
         let (cone, width) = (self.specular_cone_angle_r, self.specular_glint_width);
         let glint = ("specularGlintWidth", "[0.0153, 180] degrees");

@@ -258,8 +258,7 @@ fn refusals_have_the_system_s_own_names_and_units() {
     };
     let materialx = |change: fn(&mut MaterialXHair)| {
         let [roughness_r, roughness_tt, roughness_trt] = MaterialXRoughness::default().pairs().unwrap();
-        let mut hair =
-            MaterialXHair { roughness_r, roughness_tt, roughness_trt, ..MaterialXHair::default() };
+        let mut hair = MaterialXHair { roughness_r, roughness_tt, roughness_trt, ..MaterialXHair::default() };
         change(&mut hair);
         hair.parameters()
     };
@@ -273,8 +272,14 @@ fn refusals_have_the_system_s_own_names_and_units() {
         (mitsuba(|h| h.int_ior = 1.0), "int_ior must lie in [1.0001, 3] times ext_ior, found 1"),
         (renderman(|h| h.specular_offset = 91.0), "specularOffset must lie in (-90, 90) degrees, found 91"),
         (renderman(|h| h.specular_eccentricity = 0.0), "specularEccentricity must lie in [0.1, 1], found 0"),
-        (renderman(|h| h.specular_glint_width = 0.01), "specularGlintWidth must lie in [0.0153, 180] degrees"),
-        (renderman(|h| h.specular_cone_angle_r = 120.0), "specularConeAngleR must lie in [0.0417, 90] degrees, found 120"),
+        (
+            renderman(|h| h.specular_glint_width = 0.01),
+            "specularGlintWidth must lie in [0.0153, 180] degrees",
+        ),
+        (
+            renderman(|h| h.specular_cone_angle_r = 120.0),
+            "specularConeAngleR must lie in [0.0417, 90] degrees, found 120",
+        ),
         (renderman(|h| h.specular_cone_angle_tt = 0.7), "specularConeAngleTT must lie in [0.1, 8] times"),
         (materialx(|h| h.ior = 0.5), "ior must lie in [1.0001, 3], found 0.5"),
         (materialx(|h| h.cuticle_angle = 0.0), "cuticle_angle must lie in (0, 1), found 0"),
