@@ -2,8 +2,10 @@
 
 pub(crate) mod bcsdf;
 pub(crate) mod bytes;
+pub(crate) mod counts;
 pub(crate) mod density;
 pub(crate) mod grid;
+pub(crate) mod knots;
 pub(crate) mod medulla;
 pub(crate) mod model;
 pub(crate) mod paths;

@@ -10,7 +10,7 @@ use std::sync::{Arc, LazyLock};
 use brute_force::{Chance, Cylinders, SET_A, SET_B};
 use fibre_scattering::{
     Absorption, FurBcsdf, FurParameters, FurReference, HairBcsdf, HairParameters, Lobe, Medulla, MedullaKey,
-    MedullaTable, YanBcsdf, YanForm, YanPath,
+    MedullaTable, WaterFilm, YanBcsdf, YanForm, YanPath,
 };
 use glam::Vec3;
 use support::{Random, direction, single};
@@ -19,6 +19,7 @@ fn parameters(cylinders: &Cylinders) -> FurParameters {
     let hair = HairParameters {
         eta: cylinders.eta as f32,
         cuticle_layers: cylinders.layers.map(|layers| layers as f32),
+        film: cylinders.film.map(|eta| WaterFilm { eta: eta as f32, ..WaterFilm::default() }),
         ..HairParameters::default()
     };
     let medulla = Medulla {
@@ -45,14 +46,16 @@ static SETS: LazyLock<[Set; 2]> = LazyLock::new(|| {
     })
 });
 
+type Material = (FurParameters, Option<Arc<MedullaTable>>);
+
 /// Tables of no use but to be exact: with extreme media, from few walks.
-fn rough_materials() -> Vec<(FurParameters, Option<Arc<MedullaTable>>)> {
+static ROUGH: LazyLock<Vec<Material>> = LazyLock::new(|| {
     let media =
         [(0.86, 3.0, 0.8), (0.99, 100.0, 0.99), (0.01, 100.0, -0.99), (0.5, 1e-6, 0.0), (0.9, 50.0, -0.5)];
     media
         .into_iter()
         .flat_map(|(kappa, sigma_s, g)| {
-            [1.0001, 1.55, 3.0].map(|eta| Cylinders { eta, kappa, sigma_s, g, layers: None })
+            [1.0001, 1.55, 3.0].map(|eta| Cylinders { eta, kappa, sigma_s, g, layers: None, film: None })
         })
         .map(|cylinders| {
             let parameters = parameters(&cylinders);
@@ -60,7 +63,7 @@ fn rough_materials() -> Vec<(FurParameters, Option<Arc<MedullaTable>>)> {
             (parameters, table)
         })
         .collect()
-}
+});
 
 const RAYS: [(f64, f64); 7] =
     [(0.0, 0.0), (0.3, 20.0), (-0.7, -60.0), (0.999, 45.0), (-1.0, 0.0), (0.5, 89.99), (0.2, -90.0)];
@@ -130,8 +133,8 @@ fn a_medulla_that_only_absorbs_is_on_the_way_of_tt_and_trt() {
 
 #[test]
 fn a_white_fibre_returns_all_light() {
-    for (parameters, table) in rough_materials() {
-        let fur = FurBcsdf::new(&parameters, table).unwrap();
+    for (parameters, table) in &*ROUGH {
+        let fur = FurBcsdf::new(parameters, table.clone()).unwrap();
         for (h, theta) in RAYS {
             let wo = single(direction(theta.to_radians(), 1.0));
             let albedo: Vec3 = fur.at(wo, h as f32, Absorption::default()).albedo().into_iter().sum();
@@ -143,24 +146,22 @@ fn a_white_fibre_returns_all_light() {
 /// The integral over all directions of a function of azimuth and sine, exact for the scattered lobe: between
 /// its knots that is a product of straight lines, and two points of Gauss suffice.
 fn integral(centre: f64, f: impl Fn(f64, f64) -> f64) -> f64 {
-    let around = TAU / 48.0;
+    let (sines, around) = MedullaTable::knots();
+    let columns = (TAU / around).round() as u32;
+    assert!(
+        (f64::from(columns) * around - TAU).abs() < 1e-12
+            && (sines[0], sines[sines.len() - 1]) == (-1.0, 1.0)
+    );
     let points = [0.5 - 0.75_f64.sqrt() / 3.0, 0.5 + 0.75_f64.sqrt() / 3.0];
     let mut sum = 0.0;
-    for (i, line) in (0..48).flat_map(|i| (0..15).map(move |line| (i, line))) {
-        let (below, above) = (knot(line), knot(line + 1));
+    for (i, pair) in (0..columns).flat_map(|i| sines.windows(2).map(move |pair| (i, pair))) {
+        let (below, above) = (pair[0], pair[1]);
         for (a, b) in points.iter().flat_map(|a| points.iter().map(move |b| (a, b))) {
             let value = f(centre + (f64::from(i) + a) * around, below + b * (above - below));
             sum += value * around * (above - below) / 4.0;
         }
     }
     sum
-}
-
-/// Sines of the table's knots: even steps of `0.4 s + 0.6 (1 - sqrt(1 - |s|))`, which is quadratic in the root.
-fn knot(line: u32) -> f64 {
-    let step = f64::from(line) / 7.5 - 1.0;
-    let root = ((0.36 + 1.6 * (1.0 - step.abs())).sqrt() - 0.6) / 0.8;
-    (1.0 - root * root) * step.signum()
 }
 
 /// Azimuth where unscattered light leaves first.
@@ -173,7 +174,7 @@ fn centre(parameters: &FurParameters, h: f64, theta: f64) -> f64 {
 
 #[test]
 fn the_scattered_lobe_integrates_to_its_albedo() {
-    for (mut parameters, table) in rough_materials() {
+    for (mut parameters, table) in ROUGH.iter().cloned() {
         parameters.hair.sigma_a = Vec3::new(0.0, 0.2, 3.0);
         parameters.medulla.sigma_a = Vec3::new(0.0, 0.0, 1.0);
         let fur = FurReference::new(&parameters, table).unwrap();
@@ -198,8 +199,8 @@ fn theta_radians(degrees: f64) -> f64 {
 #[test]
 fn absorption_darkens_and_nothing_is_not_a_number() {
     let sigmas = [0.0, 1e-6, 0.01, 1.0, 30.0, 1e4, 1e30];
-    for (parameters, table) in rough_materials() {
-        let fur = FurBcsdf::new(&parameters, table).unwrap();
+    for (parameters, table) in &*ROUGH {
+        let fur = FurBcsdf::new(parameters, table.clone()).unwrap();
         let mut random = Random(8);
         for (h, theta) in RAYS {
             let wo = single(direction(theta.to_radians(), 1.0));
@@ -308,6 +309,30 @@ fn albedos_are_those_of_an_independent_walk() {
     }
     println!("worst difference {worst}");
     assert!(worst < 0.01, "{worst}");
+}
+
+#[test]
+fn scales_and_water_are_walked_alike() {
+    const WALKS: u64 = 30_000;
+    for (layers, film) in [(Some(2.45), None), (None, Some(1.333))] {
+        let set = Cylinders { layers, film, ..SET_A };
+        let parameters = parameters(&set);
+        let fur = FurReference::new(&parameters, table(&parameters, 1000)).unwrap();
+        for (index, [cortex, medulla]) in [[0.39, 0.21], [2.0, 0.0]].into_iter().enumerate() {
+            let (mut found, mut walked) = (0.0, 0.0);
+            for (h, theta) in [(0.3, 10.0), (-0.7, -45.0)] {
+                let wo = direction(theta_radians(theta), 0.0);
+                let mut chance = Chance::new(7 + index as u64);
+                for _ in 0..WALKS {
+                    walked += set.walk(wo, h, &mut chance).passed([cortex, medulla]) / WALKS as f64;
+                }
+                let albedo = fur.at_absorbing(wo, h, [[cortex; 3], [medulla; 3]]).albedo();
+                found += albedo.iter().map(|lobe| lobe[0]).sum::<f64>();
+            }
+            println!("{layers:?} {film:?} {cortex} {medulla}: {found:.4} {walked:.4}");
+            assert!((found - walked).abs() < 0.012, "{layers:?} {film:?}: {found} {walked}");
+        }
+    }
 }
 
 /// Parameters of section "own measurements" of the project's notes: theta 0, index 1.55, smooth, bare.
@@ -436,7 +461,7 @@ fn a_table_of_another_material_is_refused() {
     assert!(FurBcsdf::new(b, table.clone()).is_ok());
     assert!(FurBcsdf::new(a, table.clone()).is_err() && FurBcsdf::new(a, None).is_err());
     let mut wet = *b;
-    wet.hair.film = Some(fibre_scattering::WaterFilm::default());
+    wet.hair.film = Some(WaterFilm::default());
     assert!(FurBcsdf::new(&wet, table.clone()).is_err());
     let mut flat = *b;
     flat.hair.aspect = 0.8;

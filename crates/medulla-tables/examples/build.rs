@@ -28,7 +28,7 @@ const CELLS: (usize, usize) = (24, 8);
 fn main() -> Result<(), ScatteringError> {
     let mut numbers = std::env::args().skip(1).map_while(|argument| argument.parse::<u32>().ok());
     let (per_ray, per_row) = (numbers.next().unwrap_or(100_000), numbers.next().unwrap_or(0));
-    let of = |kappa, sigma_s, g| Cylinders { eta: 1.55, kappa, sigma_s, g, layers: None };
+    let of = |kappa, sigma_s, g| Cylinders { eta: 1.55, kappa, sigma_s, g, layers: None, film: None };
     let materials = [
         ("set A", SET_A),
         ("set B", SET_B),
@@ -147,6 +147,7 @@ fn directions(fur: &FurReference, wo: [f64; 3], h: f64) -> Vec<f64> {
             parts[cell(way)] += hit.evaluate_with_pdf(way).0[4][0];
         }
     }
-    let sum: f64 = parts.iter().sum();
+    // Where nothing scatters there is nothing to compare.
+    let sum = parts.iter().sum::<f64>().max(f64::MIN_POSITIVE);
     parts.into_iter().map(|part| part / sum).collect()
 }

@@ -1,10 +1,11 @@
 //! A medulla's table as bytes, for caches.
 //!
 //! Little endian: the magic `gkmedull`, the format's version (u32), the key (numbers as bits, an absent one
-//! as the bits of NaN), then cumulative masses and path lengths, row by row.
+//! as the bits of NaN), then counts and paths, each row by row.
 
 use crate::error::ScatteringError;
-use crate::fur::grid::{CELLS, ROWS};
+use crate::fur::counts::Counts;
+use crate::fur::grid::{ALONG, AROUND, CELLS, ROWS};
 use crate::fur::paths::{NODES, PathNode, SHARES};
 use crate::fur::row::CLASSES;
 use crate::fur::table::{MedullaKey, MedullaTable};
@@ -12,7 +13,7 @@ use crate::fur::table::{MedullaKey, MedullaTable};
 const MAGIC: [u8; 8] = *b"gkmedull";
 const KEY: usize = 7 * 4;
 const HEADER: usize = MAGIC.len() + 4 + KEY;
-const MASSES: usize = ROWS * CELLS * CLASSES * 2;
+const COUNTS: usize = ROWS * CELLS * CLASSES * 2;
 const PATHS: usize = ROWS * CLASSES * NODES * 3 * 4;
 
 impl MedullaKey {
@@ -52,17 +53,17 @@ impl MedullaKey {
 
 impl MedullaTable {
     /// Changes with the format and with how walks are traced: tables of another version are made anew.
-    pub const VERSION: u32 = 2;
+    pub const VERSION: u32 = 3;
 
     /// The table as bytes.
     #[must_use]
     pub fn to_bytes(&self) -> Vec<u8> {
-        let mut bytes = Vec::with_capacity(HEADER + MASSES + PATHS);
+        let mut bytes = Vec::with_capacity(HEADER + COUNTS + PATHS);
         bytes.extend_from_slice(&MAGIC);
         bytes.extend_from_slice(&Self::VERSION.to_le_bytes());
         bytes.extend_from_slice(&self.key().to_bytes());
-        for mass in self.cumulative.iter().flatten() {
-            bytes.extend_from_slice(&mass.to_le_bytes());
+        for count in self.counts.iter().flat_map(|counts| counts.entries().as_flattened().as_flattened()) {
+            bytes.extend_from_slice(&count.to_le_bytes());
         }
         for node in self.nodes.iter().flatten().flatten() {
             for number in [node.cortex, node.medulla, node.share] {
@@ -75,10 +76,10 @@ impl MedullaTable {
     /// The table that [`MedullaTable::to_bytes`] wrote.
     ///
     /// # Errors
-    /// [`ScatteringError::Table`] for anything else: another version, another length, sums that fall,
+    /// [`ScatteringError::Table`] for anything else: another version, another length, counts of no whole,
     /// lengths that are none.
     pub fn from_bytes(bytes: &[u8]) -> Result<MedullaTable, ScatteringError> {
-        if bytes.len() != HEADER + MASSES + PATHS {
+        if bytes.len() != HEADER + COUNTS + PATHS {
             return Err(ScatteringError::Table);
         }
         Self::read(&mut Bytes(bytes)).ok_or(ScatteringError::Table)
@@ -90,10 +91,7 @@ impl MedullaTable {
         }
         let key = MedullaKey::from_bytes(bytes)?;
         key.check().ok()?;
-        let mut cumulative = vec![[0; CLASSES]; ROWS * CELLS];
-        for mass in cumulative.iter_mut().flatten() {
-            *mass = u16::from_le_bytes(bytes.take()?);
-        }
+        let counts = (0..ROWS).map(|_| bytes.counts()).collect::<Option<_>>()?;
         let mut nodes = vec![[[PathNode::default(); NODES]; CLASSES]; ROWS];
         for class in nodes.iter_mut().flatten() {
             for node in class.iter_mut() {
@@ -101,17 +99,8 @@ impl MedullaTable {
             }
             is_sound(class).then_some(())?;
         }
-        cumulative.chunks(CELLS).all(rises).then_some(())?;
-        Some(MedullaTable::of_parts(key, cumulative, nodes))
+        Some(MedullaTable::of_parts(key, counts, nodes))
     }
-}
-
-/// Whether the sums of a row never fall and end at all of it, which is written as 0.
-fn rises(row: &[[u16; CLASSES]]) -> bool {
-    (0..CLASSES).all(|class| {
-        let sums = row[..CELLS - 1].iter().map(|entry| entry[class]);
-        sums.is_sorted() && row[CELLS - 1][class] == 0
-    })
 }
 
 /// Whether lengths are lengths and shares sum to 1.
@@ -130,6 +119,15 @@ impl Bytes<'_> {
         let (first, rest) = self.0.split_first_chunk()?;
         self.0 = rest;
         Some(*first)
+    }
+
+    /// Of a row, if they are counts of a whole.
+    fn counts(&mut self) -> Option<Counts> {
+        let mut entries = [[[0; CLASSES]; AROUND]; ALONG];
+        for count in entries.as_flattened_mut().as_flattened_mut() {
+            *count = u16::from_le_bytes(self.take()?);
+        }
+        Counts::checked(entries)
     }
 
     fn float(&mut self) -> Option<f32> {

@@ -68,7 +68,7 @@ fn split<T: Real>(coordinate: T, knots: usize) -> (usize, T) {
 }
 
 /// Knots of the density around the fibre, from the azimuth where unscattered light leaves first.
-pub(crate) const AROUND: usize = 48;
+pub(crate) const AROUND: usize = 46;
 /// Knots of the density along the fibre, from sine -1 to 1.
 pub(crate) const ALONG: usize = 16;
 /// Entries of a row.

@@ -108,7 +108,7 @@ fn scattered_share<T: Real>(fresnel: T, depth: T) -> T {
 
 /// A fibre of fur met by a ray.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct FurHit<'a, T> {
+pub(crate) struct FurHit<'a, T: Real> {
     hair: Hit<T>,
     /// Chance of the four lobes of hair.
     unscattered: T,
@@ -131,11 +131,11 @@ impl<'a, T: Real> FurHit<'a, T> {
     /// f cos(theta_i) per lobe and channel, and the density over solid angle.
     #[inline]
     pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 5], T) {
-        let (mut values, pdf) = self.hair.evaluate_with_pdf(wi);
+        let (mut values, pdf, azimuth) = self.hair.evaluate_with_pdf_and_azimuth(wi);
         let Some(scattered) = &self.scattered else {
             return (values, pdf);
         };
-        let [red, green, blue, density] = scattered.evaluate(wi[0], self.hair.azimuth(wi));
+        let [red, green, blue, density] = scattered.evaluate(wi[0], azimuth);
         values[4] = [red, green, blue];
         (values, self.unscattered * pdf + density)
     }

@@ -1,7 +1,8 @@
 //! One row of a medulla's table: what became of the walks of one ray.
 
+use crate::fur::counts::Counts;
 use crate::fur::density::{Density, smoothed};
-use crate::fur::grid::{AROUND, CELLS, STEP_AROUND, nearest_knot, ray_of_row};
+use crate::fur::grid::{AROUND, STEP_AROUND, nearest_knot, ray_of_row};
 use crate::fur::paths::{NODES, PathNode, path_nodes};
 use crate::fur::table::MedullaKey;
 use crate::fur::walk::{Exit, Numbers, Walker};
@@ -17,9 +18,8 @@ pub(crate) const CLASS_SHARES: [f64; CLASSES] = [0.3125, 0.3125, 0.25, 0.125];
 /// long a path.
 #[derive(Debug, Clone, PartialEq)]
 pub struct MedullaRow {
-    /// For each entry the sum of the class's masses up to it, in 65536ths of the class; the last, which
-    /// is all of it, is 0.
-    pub(crate) cumulative: Vec<[u16; CLASSES]>,
+    /// Where each class goes.
+    pub(crate) counts: Box<Counts>,
     /// The paths of each class.
     pub(crate) nodes: [[PathNode; NODES]; CLASSES],
 }
@@ -32,14 +32,13 @@ impl MedullaRow {
         exits.sort_by_cached_key(|exit| length(exit).to_bits());
         let (offset, inclination) = ray_of_row(row);
         let symmetric = [offset == 0.0, inclination == 0.0];
-        let mut cumulative = vec![[0; CLASSES]; CELLS];
         let mut nodes = [[PathNode::default(); NODES]; CLASSES];
+        let mut densities: [Density; CLASSES] = Default::default();
         for (class, exits) in split(&exits, &CLASS_SHARES).into_iter().enumerate() {
-            let density = smoothed(exits.iter().map(cell), symmetric);
-            accumulate(&density, class, &mut cumulative);
+            densities[class] = smoothed(exits.iter().map(cell), symmetric);
             nodes[class] = path_nodes(exits);
         }
-        MedullaRow { cumulative, nodes }
+        MedullaRow { counts: Box::new(Counts::of_densities(densities)), nodes }
     }
 }
 
@@ -93,21 +92,6 @@ fn split<'a, T>(all: &'a [T], shares: &[f64]) -> Vec<&'a [T]> {
         (rest, taken) = (after, end);
     }
     parts
-}
-
-/// Sums of the masses of a class, in 65536ths.
-fn accumulate(density: &Density, class: usize, cumulative: &mut [[u16; CLASSES]]) {
-    let total: f64 = density.iter().map(|&mass| f64::from(mass)).sum();
-    let mut sum = 0.0;
-    for (entry, &mass) in density.iter().enumerate() {
-        sum += f64::from(mass);
-        let share = if total > 0.0 { sum / total } else { (entry + 1) as f64 / CELLS as f64 };
-        // The full sum, which is written as 0, belongs to the last entry alone; which must not have all of
-        // it, or that would look like nothing.
-        let least = if entry + 2 >= CELLS { 1.0 } else { 0.0 };
-        let upto = (share * 65536.0).round().clamp(least, 65535.0);
-        cumulative[entry][class] = if entry + 1 == CELLS { 0 } else { upto as u16 };
-    }
 }
 
 #[cfg(test)]

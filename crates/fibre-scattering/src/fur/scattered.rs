@@ -2,7 +2,9 @@
 
 use crate::arithmetic::lanes::Lanes;
 use crate::arithmetic::real::{Real, four};
-use crate::fur::grid::{ALONG, AROUND, CELLS, KNOTS, Place, STEP_AROUND, knot_below, reach};
+use crate::fur::counts::Counts;
+use crate::fur::grid::{KNOTS, Place, STEP_AROUND, reach};
+use crate::fur::knots::Knots;
 use crate::fur::paths::PathNode;
 use crate::fur::row::{CLASS_SHARES, CLASSES};
 use crate::fur::table::MedullaTable;
@@ -48,11 +50,10 @@ pub(crate) fn all_passed<T: Real>() -> Passed<T> {
 
 /// The scattered lobe of a fibre met by a ray.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Scattered<'a, T> {
-    table: &'a MedullaTable,
-    rows: [usize; 4],
+pub(crate) struct Scattered<'a, T: Real> {
+    rows: [&'a Counts; 4],
     /// For each row and class what it scatters in red, green and blue, and its chance to be drawn.
-    parts: [[[T; 4]; CLASSES]; 4],
+    parts: [[T::Four; CLASSES]; 4],
     /// All chances together.
     pub chance: T,
     /// What is scattered in red, green and blue.
@@ -61,44 +62,6 @@ pub(crate) struct Scattered<'a, T> {
     centre: T,
     /// -1 where the ray is the mirror image, around the fibre and along it, of the one the rows stand for.
     mirrors: [T; 2],
-}
-
-/// What lies between two knots along the fibre.
-struct Span {
-    /// Sine of the lower knot.
-    below: f64,
-    /// One over the distance of the knots.
-    inverse_step: f64,
-    /// Density under the tent of either knot of one count of 65536.
-    heights: [f64; 2],
-}
-
-const SPANS: [Span; ALONG - 1] = {
-    const NONE: Span = Span { below: 0.0, inverse_step: 0.0, heights: [0.0; 2] };
-    let mut spans = [NONE; ALONG - 1];
-    let mut line = 0;
-    while line < ALONG - 1 {
-        spans[line] = Span {
-            below: KNOTS[line],
-            inverse_step: 1.0 / (KNOTS[line + 1] - KNOTS[line]),
-            heights: [height(line), height(line + 1)],
-        };
-        line += 1;
-    }
-    spans
-};
-
-/// One over the volume of the tent over a knot, of 65536.
-const fn height(line: usize) -> f64 {
-    let (below, above) = reach(line);
-    1.0 / (65536.0 * STEP_AROUND * 0.5 * (below + above))
-}
-
-/// Where a direction lies between the knots.
-struct Knots<T> {
-    /// Entries at the corners and the weight of each.
-    entries: [usize; 4],
-    weights: [T; 4],
 }
 
 impl<'a, T: Real> Scattered<'a, T> {
@@ -116,19 +79,21 @@ impl<'a, T: Real> Scattered<'a, T> {
             let passed = passed(place.rows[corner]);
             four(|class| {
                 let weight = share * place.parts[corner] * T::of(CLASS_SHARES[class]);
-                four(|channel| weight * passed[class][channel])
+                T::Four::from(passed[class]) * T::Four::splat(weight)
             })
         });
-        let sums = parts.iter().flatten().fold([T::ZERO; 4], |sum, part| four(|c| sum[c] + part[c]));
-        let [red, green, blue, chance] = sums;
-        Scattered { table, rows: place.rows, parts, chance, albedo: [red, green, blue], centre, mirrors }
+        let sum = parts.iter().flatten().fold(T::Four::splat(T::ZERO), |sum, &part| sum + part);
+        let [red, green, blue, chance]: [T; 4] = sum.into();
+        let rows = four(|corner| &table.counts[place.rows[corner]]);
+        Scattered { rows, parts, chance, albedo: [red, green, blue], centre, mirrors }
     }
 
     /// Makes the chances sum to this.
     pub fn set_chance(&mut self, chance: T) {
         let scale = if self.chance > T::ZERO { chance / self.chance } else { T::ZERO };
+        let scales = T::Four::from([T::ONE, T::ONE, T::ONE, scale]);
         for part in self.parts.iter_mut().flatten() {
-            part[3] = part[3] * scale;
+            *part = *part * scales;
         }
         self.chance = chance;
     }
@@ -146,12 +111,14 @@ impl<'a, T: Real> Scattered<'a, T> {
     /// What [`Scattered::evaluate`] has from one row.
     #[inline(always)]
     fn corner(&self, corner: usize, knots: &Knots<T>) -> T::Four {
-        let densities: [T; 4] = self.densities(self.rows[corner], knots).into();
-        let parts = &self.parts[corner];
-        let part = |class: usize| T::Four::from(parts[class]) * T::Four::splat(densities[class]);
-        (part(0) + part(1)) + (part(2) + part(3))
+        let densities: [T; 4] = self.rows[corner].densities(knots).into();
+        let part = self.parts[corner];
+        let density = |class: usize| T::Four::splat(densities[class]);
+        part[1].times_plus(density(1), part[0] * density(0))
+            + part[3].times_plus(density(3), part[2] * density(2))
     }
 
+    /// Where a direction lies between the knots.
     #[inline(always)]
     fn knots(&self, sin_theta_i: T, phi: T) -> Knots<T> {
         let [mirror_around, mirror_along] = self.mirrors;
@@ -160,39 +127,7 @@ impl<'a, T: Real> Scattered<'a, T> {
         for _ in 0..2 {
             turn = if turn < T::ZERO { turn + T::TAU } else { turn };
         }
-        let around = turn * T::of(1.0 / STEP_AROUND);
-        let (column, left) = around.whole();
-        let right = around - left;
-        let sin = mirror_along * sin_theta_i;
-        let line = knot_below(sin);
-        let Span { below, inverse_step, heights } = &SPANS[line];
-        let above = ((sin - T::of(*below)) * T::of(*inverse_step)).max(T::ZERO).min(T::ONE);
-        let (low, high) = ((T::ONE - above) * T::of(heights[0]), above * T::of(heights[1]));
-        // A whole turn is none.
-        let column = if column < AROUND { column } else { 0 };
-        let next = if column + 1 < AROUND { column + 1 } else { 0 };
-        let first = line * AROUND;
-        Knots {
-            entries: [first + column, first + next, first + AROUND + column, first + AROUND + next],
-            weights: [low * (T::ONE - right), low * right, high * (T::ONE - right), high * right],
-        }
-    }
-
-    /// Density of each class of a row, per steradian.
-    #[inline(always)]
-    fn densities(&self, row: usize, knots: &Knots<T>) -> T::Four {
-        let sums = &self.table.cumulative[row * CELLS..][..CELLS];
-        let corner = |corner: usize| {
-            let entry = knots.entries[corner];
-            // The sum before the first is 0, and so is, as it is written, that of the last.
-            let before = sums[if entry == 0 { CELLS - 1 } else { entry - 1 }];
-            let upto = sums[entry];
-            // In 32 bits, in which vectors are turned to floats; of which sums of 65536 count as 0.
-            let count = |class: usize| u32::from(upto[class]).wrapping_sub(before[class].into()) & 0xffff;
-            let counts = T::Four::of_counts(four(count));
-            counts * T::Four::splat(knots.weights[corner])
-        };
-        (corner(0) + corner(1)) + (corner(2) + corner(3))
+        Knots::about(turn, mirror_along * sin_theta_i)
     }
 
     /// The inclination and the azimuth of a direction drawn from three numbers in [0, 1): the first picks row and
@@ -200,31 +135,29 @@ impl<'a, T: Real> Scattered<'a, T> {
     /// lobe's chance.
     pub fn sample(&self, u: [T; 4]) -> (Inclination<T>, T) {
         let (corner, class) = self.chosen(u[0] * self.chance);
-        let entry = self.entry(self.rows[corner], class, (u[1] * T::of(65536.0)).whole().0.min(65535));
-        let line = entry / AROUND;
+        let count = (u[1] * T::of(65536.0)).whole().0.min(65535);
+        let (line, column) = self.rows[corner].drawn(class, count);
         let [mirror_around, mirror_along] = self.mirrors;
         let sin = T::of(KNOTS[line]) + slanted_tent(u[2], reach(line));
         let sin = mirror_along * sin.max(-T::ONE).min(T::ONE);
         let cos = ((T::ONE - sin) * (T::ONE + sin)).sqrt();
-        let turn = (T::of((entry % AROUND) as f64) + tent(u[3])) * T::of(STEP_AROUND);
+        let turn = (T::of(column as f64) + tent(u[3])) * T::of(STEP_AROUND);
         (Inclination { sin, cos }, self.centre + mirror_around * turn)
     }
 
     /// The corner and class that a part of the chance falls on.
     fn chosen(&self, left: T) -> (usize, usize) {
-        let chances = four(|corner| four(|class| self.parts[corner][class][3]));
+        let chance = |part: T::Four| -> T {
+            let [_, _, _, chance] = part.into();
+            chance
+        };
+        let chances = four(|corner| four(|class| chance(self.parts[corner][class])));
         let sums = four(|corner| {
             let [a, b, c, d] = chances[corner];
             (a + b) + (c + d)
         });
         let (corner, left) = counted(sums, left);
         (corner, counted(chances[corner], left).0)
-    }
-
-    /// The entry that a count below 65536 falls on: the first whose sum is above it.
-    fn entry(&self, row: usize, class: usize, count: usize) -> usize {
-        let sums = &self.table.cumulative[row * CELLS..][..CELLS - 1];
-        sums.partition_point(|sum| usize::from(sum[class]) <= count)
     }
 }
 

@@ -4,7 +4,8 @@
 //! through cortex and medulla it leaves, and in which direction, depending on the path.
 
 use crate::error::ScatteringError;
-use crate::fur::grid::{CELLS, ROWS};
+use crate::fur::counts::Counts;
+use crate::fur::grid::ROWS;
 use crate::fur::medulla::{FurParameters, Medulla};
 use crate::fur::paths::{NODES, PathNode};
 use crate::fur::row::{CLASSES, MedullaRow, default_walks};
@@ -98,7 +99,7 @@ impl MedullaKey {
 #[derive(Debug, Clone, PartialEq)]
 pub struct MedullaTable {
     key: MedullaKey,
-    pub(crate) cumulative: Vec<[u16; CLASSES]>,
+    pub(crate) counts: Vec<Counts>,
     pub(crate) nodes: Vec<[[PathNode; NODES]; CLASSES]>,
 }
 
@@ -143,10 +144,9 @@ impl MedullaTable {
         if rows.len() != ROWS {
             return Err(ScatteringError::Table);
         }
-        let mut cumulative = Vec::with_capacity(ROWS * CELLS);
-        rows.iter().for_each(|row| cumulative.extend_from_slice(&row.cumulative));
+        let counts = rows.iter().map(|row| Counts::clone(&row.counts)).collect();
         let nodes = rows.iter().map(|row| row.nodes).collect();
-        Ok(MedullaTable { key: *key, cumulative, nodes })
+        Ok(MedullaTable { key: *key, counts, nodes })
     }
 
     /// Builds the table on this thread. See the crate `medulla-tables` for all threads and a cache on disk.
@@ -161,15 +161,15 @@ impl MedullaTable {
     /// Bytes it takes in memory.
     #[must_use]
     pub fn size(&self) -> usize {
-        size_of_val(self.cumulative.as_slice()) + size_of_val(self.nodes.as_slice()) + size_of::<Self>()
+        size_of_val(self.counts.as_slice()) + size_of_val(self.nodes.as_slice()) + size_of::<Self>()
     }
 
     /// Of parts that have been checked.
     pub(crate) fn of_parts(
         key: MedullaKey,
-        cumulative: Vec<[u16; CLASSES]>,
+        counts: Vec<Counts>,
         nodes: Vec<[[PathNode; NODES]; CLASSES]>,
     ) -> MedullaTable {
-        MedullaTable { key, cumulative, nodes }
+        MedullaTable { key, counts, nodes }
     }
 }

@@ -80,16 +80,19 @@ impl<T: Real> TrimmedLogistic<T> {
     }
 
     /// Each lobe's density in the azimuth of the vector `[cos, sin]`, of any length, against that of `wo`. No
-    /// exponent is positive: nothing overflows.
+    /// exponent is positive: nothing overflows. Also that azimuth without its sign, in [0, pi], which is the
+    /// angle to the residual lobe's centre.
     #[inline(always)]
-    pub fn densities(&self, centres: &Centres<T>, [cos, sin]: [T; 2]) -> T::Four {
+    pub fn densities(&self, centres: &Centres<T>, [cos, sin]: [T; 2]) -> (T::Four, T) {
         let (coss, sins) = (T::Four::from(centres.coss), T::Four::from(centres.sins));
         let (cos, sin) = (T::Four::splat(cos), T::Four::splat(sin));
         let along = coss.times_plus(cos, sins * sin);
         let across = coss * sin - sins * cos;
-        let falls = (along.angle_to(across) * T::Four::from(self.inverse_scales)).exp_of_minus();
+        let angles = along.angle_to(across);
+        let falls = (angles * T::Four::from(self.inverse_scales)).exp_of_minus();
         let below = falls + T::Four::splat(T::ONE);
-        falls * T::Four::from(self.heights) / (below * below)
+        let [_, _, _, azimuth]: [T; 4] = angles.into();
+        (falls * T::Four::from(self.heights) / (below * below), azimuth)
     }
 
     /// The ratio whose logarithm, times the scale, is an angle distributed as the density of lobe `p`, one of

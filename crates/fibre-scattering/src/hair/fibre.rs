@@ -196,13 +196,6 @@ impl<T: Real> Hit<T> {
         self.most
     }
 
-    /// phi_i - phi_o, in [-pi, pi].
-    #[inline(always)]
-    pub fn azimuth(&self, wi: [T; 3]) -> T {
-        let [cos, sin] = self.turned(wi);
-        sin.atan2(cos)
-    }
-
     /// The part of a direction across the fibre, turned so that `wo` lies at azimuth 0.
     #[inline(always)]
     fn turned(&self, [_, y, z]: [T; 3]) -> [T; 2] {
@@ -225,26 +218,34 @@ impl<T: Real> Hit<T> {
         [theta_i.sin, y, z]
     }
 
-    /// M_p N_p of each lobe, all four in step: that is what makes it fast.
+    /// M_p N_p of each lobe, all four in step: that is what makes it fast. And phi_i - phi_o, in [-pi, pi].
     #[inline(always)]
-    fn densities(&self, wi: [T; 3]) -> [T; 4] {
+    fn densities(&self, wi: [T; 3]) -> ([T; 4], T) {
         let [along, y, z] = wi;
         let theta_i = Inclination { sin: along, cos: (y * y + z * z).sqrt() };
-        let around = self.spread.around.densities(&self.centres, self.turned(wi));
+        let turned = self.turned(wi);
+        let (around, azimuth) = self.spread.around.densities(&self.centres, turned);
         let along = self.spread.along.densities(theta_i, &self.mirrors);
-        (around * along).into()
+        ((around * along).into(), if turned[1] < T::ZERO { -azimuth } else { azimuth })
     }
 
     /// f cos(theta_i) per lobe and channel, and the density over solid angle.
     #[inline(always)]
     pub fn evaluate_with_pdf(&self, wi: [T; 3]) -> ([[T; 3]; 5], T) {
-        let densities = self.densities(wi);
+        let (values, pdf, _) = self.evaluate_with_pdf_and_azimuth(wi);
+        (values, pdf)
+    }
+
+    /// And phi_i - phi_o, in [-pi, pi].
+    #[inline(always)]
+    pub fn evaluate_with_pdf_and_azimuth(&self, wi: [T; 3]) -> ([[T; 3]; 5], T, T) {
+        let (densities, azimuth) = self.densities(wi);
         let value = |p: usize| {
             let [red, green, blue] = self.attenuations[p];
             let density = densities[p];
             [red * density, green * density, blue * density]
         };
-        ([value(0), value(1), value(2), value(3), [T::ZERO; 3]], self.mixed(&densities))
+        ([value(0), value(1), value(2), value(3), [T::ZERO; 3]], self.mixed(&densities), azimuth)
     }
 
     /// The share each lobe scatters; nothing in the lobe of the medulla.
@@ -255,7 +256,7 @@ impl<T: Real> Hit<T> {
 
     /// The density over solid angle alone.
     pub fn pdf(&self, wi: [T; 3]) -> T {
-        self.mixed(&self.densities(wi))
+        self.mixed(&self.densities(wi).0)
     }
 
     fn mixed(&self, densities: &[T; 4]) -> T {

@@ -13,11 +13,15 @@ pub struct Cylinders {
     pub g: f64,
     /// Cuticle layers of Yan 2017; nothing for the bare surface.
     pub layers: Option<f64>,
+    /// Index of a film of water, if there is one.
+    pub film: Option<f64>,
 }
 
 /// Sets A and B of the published fits; the surface is bare.
-pub const SET_A: Cylinders = Cylinders { eta: 1.49, kappa: 0.86, sigma_s: 3.15, g: 0.79, layers: None };
-pub const SET_B: Cylinders = Cylinders { eta: 1.55, kappa: 0.88, sigma_s: 1.69, g: 0.44, layers: None };
+pub const SET_A: Cylinders =
+    Cylinders { eta: 1.49, kappa: 0.86, sigma_s: 3.15, g: 0.79, layers: None, film: None };
+pub const SET_B: Cylinders =
+    Cylinders { eta: 1.55, kappa: 0.88, sigma_s: 1.69, g: 0.44, layers: None, film: None };
 
 #[derive(Debug, Clone, Copy)]
 pub struct Outcome {
@@ -81,12 +85,39 @@ fn meets(at: Vector, way: Vector, radius: f64) -> Option<(f64, f64)> {
     (d > 0.0 && a > 1e-18).then(|| ((-b - d.sqrt()) / a, (-b + d.sqrt()) / a))
 }
 
+/// Fresnel's equations, by the indices on both sides and both cosines.
+fn polarised(n1: f64, cos1: f64, n2: f64, cos2: f64) -> [f64; 2] {
+    let s = (n1 * cos1 - n2 * cos2) / (n1 * cos1 + n2 * cos2);
+    let p = (n2 * cos1 - n1 * cos2) / (n2 * cos1 + n1 * cos2);
+    [s * s, p * p]
+}
+
 impl Cylinders {
-    /// Reflectance by the indices on both sides and both cosines.
+    /// Whether light is reflected, by the indices on both sides and both cosines.
+    fn reflects(&self, n1: f64, cos1: f64, n2: f64, cos2: f64, chance: &mut Chance) -> bool {
+        let Some(water) = self.film else {
+            return chance.next() < self.reflectance(n1, cos1, n2, cos2);
+        };
+        // Back and forth between the film's faces, in one polarisation all the way.
+        let cos_water = (1.0 - (n1 / water).powi(2) * (1.0 - cos1 * cos1)).sqrt();
+        let polarisation = usize::from(chance.next() < 0.5);
+        let near = polarised(n1, cos1, water, cos_water)[polarisation];
+        let far = polarised(water, cos_water, n2, cos2)[polarisation];
+        if chance.next() < near {
+            return true;
+        }
+        loop {
+            if chance.next() >= far {
+                return false;
+            }
+            if chance.next() >= near {
+                return true;
+            }
+        }
+    }
+
     fn reflectance(&self, n1: f64, cos1: f64, n2: f64, cos2: f64) -> f64 {
-        let s = (n1 * cos1 - n2 * cos2) / (n1 * cos1 + n2 * cos2);
-        let p = (n2 * cos1 - n1 * cos2) / (n2 * cos1 + n1 * cos2);
-        let (s, p) = (s * s, p * p);
+        let [s, p] = polarised(n1, cos1, n2, cos2);
         match self.layers {
             None => 0.5 * (s + p),
             Some(l) => {
@@ -102,7 +133,7 @@ impl Cylinders {
         let sin2 = n1 / n2 * (1.0 - cos1 * cos1).max(0.0).sqrt();
         if sin2 < 1.0 {
             let cos2 = (1.0 - sin2 * sin2).sqrt();
-            if chance.next() >= self.reflectance(n1, cos1, n2, cos2) {
+            if !self.reflects(n1, cos1, n2, cos2, chance) {
                 let bent = add(way.map(|x| x * n1 / n2), normal, n1 / n2 * cos1 - cos2);
                 *way = unit(bent);
                 return true;
