@@ -24,8 +24,8 @@ pub(crate) trait Lanes<T>:
     + Neg<Output = Self>
 {
     fn splat(value: T) -> Self;
-    /// Whole numbers, exactly.
-    fn of_counts(counts: [u16; 4]) -> Self;
+    /// Whole numbers, exactly. By reference: handed over as a value the four would be one, to take apart again.
+    fn of_counts(counts: &[u16; 4]) -> Self;
     /// `self * factor + term`, rounded once where that costs nothing.
     fn times_plus(self, factor: Self, term: Self) -> Self;
     /// `exp(-self)` of values of at least 0.
@@ -48,7 +48,7 @@ impl Lanes<f32> for Vec4 {
         Vec4::splat(value)
     }
     #[inline(always)]
-    fn of_counts([a, b, c, d]: [u16; 4]) -> Self {
+    fn of_counts(&[a, b, c, d]: &[u16; 4]) -> Self {
         // Through 32 bits with a sign, the only whole numbers vector units turn to floats.
         let float = |count: u16| i32::from(count) as f32;
         Vec4::new(float(a), float(b), float(c), float(d))
@@ -92,7 +92,7 @@ impl Lanes<f64> for DVec4 {
     fn splat(value: f64) -> Self {
         DVec4::splat(value)
     }
-    fn of_counts([a, b, c, d]: [u16; 4]) -> Self {
+    fn of_counts(&[a, b, c, d]: &[u16; 4]) -> Self {
         DVec4::new(a.into(), b.into(), c.into(), d.into())
     }
     fn times_plus(self, factor: Self, term: Self) -> Self {

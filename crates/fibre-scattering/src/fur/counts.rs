@@ -75,9 +75,9 @@ impl Counts {
     pub fn densities<T: Real>(&self, knots: &Knots<T>) -> T::Four {
         let [low, high] = [&self.entries[knots.line], &self.entries[knots.line + 1]];
         let weight = |corner: usize| T::Four::splat(knots.weights[corner]);
-        let counts = |entry: [u16; CLASSES]| T::Four::of_counts(entry);
-        let below = counts(low[knots.next]).times_plus(weight(1), counts(low[knots.column]) * weight(0));
-        let above = counts(high[knots.next]).times_plus(weight(3), counts(high[knots.column]) * weight(2));
+        let counts = |entry: &[u16; CLASSES]| T::Four::of_counts(entry);
+        let below = counts(&low[knots.next]).times_plus(weight(1), counts(&low[knots.column]) * weight(0));
+        let above = counts(&high[knots.next]).times_plus(weight(3), counts(&high[knots.column]) * weight(2));
         below + above
     }
 
