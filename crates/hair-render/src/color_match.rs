@@ -132,7 +132,6 @@ fn search(
     let probe = Probe {
         object: matching.object as u32,
         lens: camera.lens(scene.center(), matching.size, matching.size),
-
         patch: matching.pixels(),
         spp: matching.spp,
         settings,

@@ -1,8 +1,10 @@
 //! What a render does without, and why that changes no pixel.
 
-use groom::{Attribute, Domain, names};
+use fibre_material::{Dressed, Varying};
+use fibre_scattering::Absorption;
+use groom::{Attribute, Groom, names};
 
-use crate::{Aov, Background, HairColor, HairObject, RenderSettings, SceneDescription, Transparency};
+use crate::{Aov, Background, HairObject, RenderSettings, SceneDescription, Transparency};
 
 /// Something that was not loaded, built or computed.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -14,6 +16,9 @@ pub struct LeftOut {
 }
 
 /// What rendering `description` with `settings` leaves out.
+///
+/// Each groom is dressed in its material to know what that comes to; of one whose material cannot be had
+/// nothing is told of absorption and roughness, and [`crate::Scene::build`] says why.
 #[must_use]
 pub fn explain(description: &SceneDescription, settings: &RenderSettings) -> Vec<LeftOut> {
     let mut list = List(Vec::new());
@@ -54,15 +59,8 @@ fn light(description: &SceneDescription, list: &mut List) {
 }
 
 fn hair(index: usize, object: &HairObject, list: &mut List) {
-    let color = object.groom.attribute(names::COLOR);
-    let constant = !matches!(object.material.fibre.color, HairColor::Groom { .. })
-        || color.is_none_or(|c| c.domain == Domain::Groom);
-    if constant {
-        let bytes = 12 * object.groom.point_count();
-        list.add(
-            format!("hair {index}: absorption by vertex"),
-            format!("one colour serves all strands: {bytes} bytes saved"),
-        );
+    if let Ok(dressed) = object.material.fibre.dress(&object.groom) {
+        varying(index, &object.groom, &dressed, list);
     }
     let parameters = &object.material.fibre.parameters;
     if parameters.aspect == 1.0 {
@@ -88,6 +86,23 @@ fn hair(index: usize, object: &HairObject, list: &mut List) {
     }
 }
 
+/// What is held less often than it could vary.
+fn varying(index: usize, groom: &Groom, dressed: &Dressed, list: &mut List) {
+    let (strands, points) = (groom.strand_count(), groom.point_count());
+    let (held, serves) = match dressed.absorption {
+        Varying::Constant(_) => (0, "one absorption serves all strands"),
+        Varying::Strand(_) => (strands, "one absorption serves each strand from root to tip"),
+        Varying::Vertex(_) => (points, ""),
+    };
+    if held < points {
+        let bytes = size_of::<Absorption>() * (points - held);
+        list.add(format!("hair {index}: absorption by vertex"), format!("{serves}: {bytes} bytes saved"));
+    }
+    if dressed.roughness.is_none() {
+        list.add(format!("hair {index}: a model by strand"), "one roughness serves all strands");
+    }
+}
+
 fn some_are_clear(attribute: &Attribute) -> bool {
     matches!(&attribute.values, groom::Values::Float(values) if values.iter().any(|&v| v > 0.0))
 }
@@ -107,11 +122,43 @@ fn passes(settings: &RenderSettings, list: &mut List) {
 
 #[cfg(test)]
 mod tests {
+    use fibre_material::{ColorRamp, Variation};
     use fibre_scattering::Medulla;
     use glam::Vec3;
 
     use super::*;
-    use crate::{AovSet, Environment, HairMaterial};
+    use crate::{AovSet, Environment, HairColor, HairMaterial};
+
+    /// Five strands of two points, and why their absorption is held as it is.
+    fn absorption_of(change: impl FnOnce(&mut Groom, &mut HairMaterial)) -> Option<String> {
+        let points = (0..10).map(|i| Vec3::new(i as f32, (i % 2) as f32, 0.0)).collect();
+        let mut groom = Groom::new(vec![0, 2, 4, 6, 8, 10], points).unwrap();
+        let mut material = HairMaterial::default();
+        change(&mut groom, &mut material);
+        let description =
+            SceneDescription { hair: vec![HairObject { groom, material }], ..Default::default() };
+        let told = explain(&description, &RenderSettings::default());
+        told.into_iter().find(|left| left.what == "hair 0: absorption by vertex").map(|left| left.why)
+    }
+
+    #[test]
+    fn one_absorption_is_told_of_where_there_is_one() {
+        let vary = |variation| move |_: &mut Groom, m: &mut HairMaterial| m.fibre.variation = variation;
+        let paint = |color| move |_: &mut Groom, m: &mut HairMaterial| m.fibre.color = color;
+        assert_eq!(absorption_of(|_, _| {}).unwrap(), "one absorption serves all strands: 240 bytes saved");
+        let each = absorption_of(vary(Variation { value: 0.3, ..Default::default() }));
+        assert_eq!(each.unwrap(), "one absorption serves each strand from root to tip: 120 bytes saved");
+        let ramp = ColorRamp::new(vec![(0.0, Vec3::splat(0.2)), (1.0, Vec3::splat(0.8))]).unwrap();
+        assert_eq!(absorption_of(paint(HairColor::Ramp(ramp))), None);
+        let by_vertex = absorption_of(|groom, material| {
+            let values = (0..10).map(|i| i as f32 / 10.0).collect();
+            let melanin = Attribute { domain: groom::Domain::Vertex, values: groom::Values::Float(values) };
+            groom.set_attribute(names::MELANIN, melanin).unwrap();
+            material.fibre.color = HairColor::GroomMelanin { concentration: 0.5, redness: 0.5 };
+        });
+        assert_eq!(by_vertex, None);
+        assert_eq!(absorption_of(paint(HairColor::Color(Vec3::splat(2.0)))), None, "no such colour");
+    }
 
     #[test]
     fn only_what_is_not_used_is_told() {

@@ -92,8 +92,8 @@ impl Fibres {
     }
 
     /// Gives all strands one absorption of the cortex, and returns what they had. The medulla's follows it
-    /// where the material says so; else it stays where
-    /// it is the same for all, and becomes its mean where it is not.
+    /// where the material says so; else it stays where it is the same for all, and becomes its mean where it
+    /// is not.
     pub fn set_cortex(&mut self, cortex: Vec3) -> Result<Varying<Absorption>, ScatteringError> {
         let medulla = match &self.absorption {
             _ if self.medulla_as_cortex => cortex,
