@@ -135,7 +135,7 @@ fn all_ways_of_finding_light_agree() {
     for (index, scene) in scenes.iter().enumerate() {
         for max_bounces in [0, 256] {
             let run = |light_sampling| {
-                spread(scene, &RenderSettings { light_sampling, max_bounces, ..settings(16, 64) })
+                spread(scene, &RenderSettings { light_sampling, max_bounces, ..settings(16, 32) })
             };
             let (both, error) = run(LightSampling::Both);
             for way in [LightSampling::LightsOnly, LightSampling::ScatteringOnly] {
@@ -204,7 +204,7 @@ fn a_matte_floor_gets_what_the_form_factor_says() {
 fn the_error_estimate_is_honest() {
     let scene = scene(vec![hair(tuft(200, 0.02), blond())], Some(Environment::studio(64).unwrap()), vec![]);
     let camera = front(&scene);
-    let reference = shoot(&scene, &camera, &RenderSettings { seed: 99, ..settings(32, 2048) });
+    let reference = shoot(&scene, &camera, &RenderSettings { seed: 99, ..settings(32, 1024) });
     for spp in [8, 15, 64] {
         let runs: Vec<Frame> = (0..4)
             .map(|seed| shoot(&scene, &camera, &RenderSettings { seed, ..settings(32, spp) }))

@@ -13,9 +13,14 @@ fn small() -> SweepOptions {
     SweepOptions { size: 20, spp: 16, ..SweepOptions::default() }
 }
 
+/// The mean colours of a row's pictures.
 fn means(stage: &mut Stage, name: &str) -> Vec<[f32; 3]> {
-    let row = &Row::named(&[name.to_owned()]).unwrap()[0];
-    let swept = sweep(stage, row, &small(), &Silent).unwrap();
+    let mut row = Row::named(&[name.to_owned()]).unwrap().remove(0);
+    if name == "medulla-index" {
+        // Each medulla costs a table; the ends of this row tell all there is to tell.
+        row.cells.remove(1);
+    }
+    let swept = sweep(stage, &row, &small(), &Silent).unwrap();
     assert_eq!(swept.report.cells.len(), row.cells.len());
     assert_eq!(swept.sheet.height, 20 + 2 * 4);
     assert_eq!(swept.sheet.width as usize, 4 + 24 * row.cells.len());
@@ -48,8 +53,10 @@ fn rows_show_what_they_say() {
     let layers = means(&mut stage, "cuticle-layers");
     assert!(saturation(layers[1]) < saturation(layers[0]), "more layers are paler: {layers:?}");
     let index = means(&mut stage, "medulla-index");
-    let last = index[index.len() - 1];
-    assert!(index[0][0] > index[0][2] && last[2] / last[0] > 2.0 * index[0][2] / index[0][0], "{index:?}");
+    assert!(
+        index[0][0] > index[0][2] && index[1][2] / index[1][0] > 2.0 * index[0][2] / index[0][0],
+        "{index:?}"
+    );
     let wet = means(&mut stage, "wet");
     assert!(wet[1][1] < wet[0][1], "wet is darker: {wet:?}");
 }
