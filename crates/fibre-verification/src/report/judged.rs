@@ -8,11 +8,9 @@ use crate::sphere::Integrals;
 use crate::statistics::{SIGNIFICANCE, normal_p};
 use crate::verdict::{Check, Verdict, worst};
 
-/// How far energy and density may be from what they must be: 1e-4 for hair, 1e-3 for fur, whose table is made
-/// of walks.
-pub(crate) fn energy_bound(model: &dyn Model) -> f64 {
-    if model.parameters().medulla.scatters() { 1e-3 } else { 1e-4 }
-}
+/// How far energy and density may be from what they must be. Fur as well: what its walks find is where
+/// scattered light goes, not how much there is.
+pub(crate) const ENERGY_BOUND: f64 = 1e-4;
 
 /// Double precision has no rounding that counts; what is left is the quadrature's.
 const DOUBLE_BOUND: f64 = 1e-5;
@@ -52,7 +50,7 @@ fn off(found: [f64; 3], right: [f64; 3]) -> f64 {
 }
 
 fn energy_checks(model: &dyn Model, white: &[Energy], colored: &[Energy]) -> Vec<Check> {
-    let bound = energy_bound(model);
+    let bound = ENERGY_BOUND;
     let unit = model.parameters().hair.lobe_weights == [1.0; 5];
     // With weights for look development a white fibre is not white; it must still be what its lobes say.
     let right = |energy: &Energy| if unit { [1.0; 3] } else { energy.stated_total() };

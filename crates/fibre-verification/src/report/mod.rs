@@ -15,7 +15,7 @@ use crate::scatterer::Model;
 use crate::verdict::{Check, Verdict};
 
 pub use curves::{Curves, LobeCurve};
-pub(crate) use judged::energy_bound;
+pub(crate) use judged::ENERGY_BOUND;
 pub use tables::{AlbedoRow, GoodnessRow, LightRow, LobeRow, WeightRow};
 
 /// Name and version of the JSON; the number rises when old readers would misread it.

@@ -12,7 +12,7 @@ use crate::checks::{Draws, accuracy, energy, goodness};
 use crate::error::VerificationError;
 use crate::landmarks::narrowest;
 use crate::random::Random;
-use crate::report::energy_bound;
+use crate::report::ENERGY_BOUND;
 use crate::scatterer::{Model, Scatterer, View};
 use crate::statistics::SIGNIFICANCE;
 use crate::subject::Subject;
@@ -37,8 +37,6 @@ pub struct StabilityRow {
     pub energy_error: f64,
     /// |1 - integral of the density|, single precision.
     pub density_error: f64,
-    /// What both were held against.
-    pub energy_bound: f64,
     /// Chance of chi-square.
     pub p: f64,
     /// Chance of it with other random numbers, drawn where the first was below one in a thousand.
@@ -81,7 +79,6 @@ pub(super) fn measure(case: &Case, number: u64, effort: Effort) -> Result<Stabil
         value_bound: value_bound(&subject),
         energy_error: nan_as_infinite(worst_channel(white.single.total()), &white.single.total()),
         density_error: (1.0 - white.single.pdf).abs().max((1.0 - colored.single.pdf).abs()),
-        energy_bound: energy_bound(&subject),
         p: first.p,
         p_again: again,
         not_numbers: not_finite + broken(&first.draws) + at_the_edges(&*scatterer),
@@ -114,8 +111,8 @@ fn faults(row: &StabilityRow) -> Vec<String> {
     let close = |error: Option<f64>| error.is_none_or(|error| error <= row.value_bound);
     judge(close(row.value_error), "value");
     judge(close(row.pdf_error), "density's value");
-    judge(row.energy_error <= row.energy_bound, "energy");
-    judge(row.density_error <= row.energy_bound, "density's integral");
+    judge(row.energy_error <= ENERGY_BOUND, "energy");
+    judge(row.density_error <= ENERGY_BOUND, "density's integral");
     judge(row.p >= SIGNIFICANCE || row.p_again.is_some_and(|p| p >= SIGNIFICANCE), "chi-square");
     judge(row.not_numbers == 0, "not a number");
     faults

@@ -158,7 +158,7 @@ fn checks(rows: &[StabilityRow]) -> Vec<Check> {
             .because("where samples go; the bound of a case is 1e-4 plus 4e-7 over its narrowest lobe's width"),
         most("Single precision against double: density", "relative error", &|r| r.pdf_error.unwrap_or(0.0), "density's value"),
         most("Without absorption all light returns", "|1 - albedo|", &|r| r.energy_error, "energy")
-            .because("bound 1e-4 for hair, 1e-3 for fur"),
+            .because("bound 1e-4"),
         most("Density integrates to 1", "|1 - integral|", &|r| r.density_error, "density's integral")
             .because("bound as above"),
         Check { above: true, ..samples }
