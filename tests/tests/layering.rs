@@ -23,7 +23,7 @@ const ARROWS: [(&str, &[&str]); 21] = [
     ("gltf-bytes", &[]),
     ("medulla-tables", &["fibre-scattering", "whole-file"]),
     ("fibre-material", &["fibre-scattering", "groom", "strict-yaml"]),
-    ("fibre-verification", &["error-report", "fibre-material", "fibre-scattering", "medulla-tables"]),
+    ("fibre-verification", &["error-report", "fibre-scattering", "medulla-tables"]),
     ("moving-mesh", &["gltf-bytes"]),
     ("groom-samples", &["groom"]),
     ("groom-formats", &["cyhair", "gltf-bytes", "groom", "ogawa", "usd-layer", "whole-file"]),

@@ -21,10 +21,10 @@ pub struct MaterialArgs {
     /// Absorption of the cortex r,g,b per fibre radius
     #[arg(long, value_name = "RGB", value_parser = parse_rgb)]
     pub absorption: Option<Vec3>,
-    /// Roughness along the fibre, above 0, at most 1
+    /// Roughness along the fibre, 0.001 to 1
     #[arg(long)]
     pub beta_m: Option<f32>,
-    /// Roughness around the fibre, above 0, at most 1
+    /// Roughness around the fibre, 0.001 to 1
     #[arg(long)]
     pub beta_n: Option<f32>,
     /// Tilt of the cuticle's scales, in degrees; positive tilts R to the root
