@@ -116,6 +116,24 @@ fn options_change_the_groom() {
     assert_eq!(ramp.colors().unwrap().get(1, 4).to_array(), [1.0; 3]);
 }
 
+/// A material file or preset says all of the fibre; what no format holds of it is told.
+#[test]
+fn materials_come_from_files_and_presets() {
+    let folder = Folder::new();
+    std::fs::write(folder.path("own.yaml"), "preset: human-red\nbeta_m: 0.4\nwet: true\n").unwrap();
+    let written = |options: &[&str]| {
+        let run = folder.good(&[&["in.txt", "out.usda"], options].concat());
+        (std::fs::read_to_string(folder.path("out.usda")).unwrap(), words(&run))
+    };
+    let (plain, said) = written(&["--material", "melanin:0.5,1"]);
+    assert!(!said.contains("left out of the material"), "{said}");
+    assert_eq!(written(&["--material", "preset:human-red"]).0, plain);
+    let (own, said) = written(&["--material", "file:own.yaml"]);
+    assert!(own != plain && said.contains("left out of the material: its film of water\n"), "{said}");
+    let rough = written(&["--material", "preset:human-red", "--beta-m", "0.4"]).0;
+    assert_eq!(rough, own, "but for the film");
+}
+
 #[test]
 fn report_as_json_counts_what_was_done() {
     let folder = Folder::new();
@@ -133,12 +151,13 @@ fn what_cannot_be_done_exits_with_2_and_leaves_nothing() {
     let folder = Folder::new();
     std::fs::write(folder.path("bad.hair"), b"HAIR but no more").unwrap();
     std::fs::write(folder.path("bad.txt"), "0 0 0 1\n0 x 0 1\n").unwrap();
+    std::fs::write(folder.path("bad.yaml"), "melanin: 0.5\nbeta_m: 7\n").unwrap();
     std::fs::write(folder.path("dots.txt"), "0 0 0 1\n").unwrap();
     std::fs::write(folder.path("old.usda"), "old").unwrap();
     std::fs::write(folder.path("hair.bin"), TEXT).unwrap();
     std::fs::create_dir(folder.path("folder.txt")).unwrap();
     let before = folder.names();
-    let cases: [(&[&str], &str); 48] = [
+    let cases: [(&[&str], &str); 50] = [
         (&["missing.hair", "out.txt"], "missing.hair"),
         (&["bad.hair", "out.txt"], "bad.hair"),
         (&["bad.txt", "out.hair"], "bad.txt: line 2, column 3: found `x`"),
@@ -171,6 +190,11 @@ fn what_cannot_be_done_exits_with_2_and_leaves_nothing() {
         (&["in.txt", "out.usda", "--beta-m", "0.2"], "--material"),
         (&["in.txt", "out.usda", "--material", "color:1,1"], "--material"),
         (&["in.txt", "out.usda", "--material", "groom", "--eta", "9"], "9"),
+        (&["in.txt", "out.usda", "--material", "preset:human-rd"], "did you mean `human-red`?"),
+        (
+            &["in.txt", "out.usda", "--material", "file:bad.yaml"],
+            "bad.yaml:2:9: beta_m: must lie in [0.001, 1], found 7",
+        ),
         (&["in.txt", "out.glb", "--as-mesh", "tubes:2"], "--as-mesh"),
         (&["in.txt", "out.usda", "--for", "paint"], "--for"),
         (&["-", "out.txt"], "--from"),

@@ -56,7 +56,7 @@ pub use import::{
     RenderManBlock,
 };
 pub use material::{Field, Material};
-pub use picture::Picture;
+pub use picture::{Picture, linear_pixels};
 pub use preset::Preset;
 pub use variation::{Along, Variation, White, WhiteColor};
 pub use varying::Varying;

@@ -37,21 +37,7 @@ impl Picture {
     /// # Errors
     /// [`MaterialError::Io`], or [`MaterialError::Picture`] for what is no such picture or no colours.
     pub fn open(path: &Path) -> Result<Picture, MaterialError> {
-        let io = |source| MaterialError::Io { path: path.to_owned(), source };
-        let reader = ImageReader::open(path).map_err(io)?.with_guessed_format().map_err(io)?;
-        let Some(ImageFormat::Png | ImageFormat::Hdr) = reader.format() else {
-            return Err(MaterialError::picture(path, "expected a .png or .hdr picture"));
-        };
-        let picture = reader.decode().map_err(|error| MaterialError::picture(path, error))?;
-        let width = picture.width() as usize;
-        let pixels = match picture {
-            DynamicImage::ImageRgb32F(linear) => linear.pixels().map(|p| Vec3::from(p.0)).collect(),
-            coded => {
-                let linear: Vec<f32> = (0..=u16::MAX).map(|v| linear(f32::from(v) / 65535.0)).collect();
-                let coded = coded.into_rgb16();
-                coded.pixels().map(|p| Vec3::from(p.0.map(|v| linear[usize::from(v)]))).collect()
-            }
-        };
+        let (width, pixels) = linear_pixels(path)?;
         Picture::new(width, pixels).map_err(|error| MaterialError::picture(path, error))
     }
 
@@ -81,6 +67,30 @@ impl Picture {
         let sum: glam::DVec3 = self.pixels.iter().map(|pixel| pixel.as_dvec3()).sum();
         (sum / self.pixels.len().max(1) as f64).as_vec3()
     }
+}
+
+/// The columns and pixels of a .png, which is taken for sRGB, or a .hdr, which is linear, row after row from the
+/// top, in linear Rec. 709; transparency is ignored. A .hdr's may be brighter than 1, which is no colour of hair.
+///
+/// # Errors
+/// [`MaterialError::Io`], or [`MaterialError::Picture`] for what is no such picture.
+pub fn linear_pixels(path: &Path) -> Result<(usize, Vec<Vec3>), MaterialError> {
+    let io = |source| MaterialError::Io { path: path.to_owned(), source };
+    let reader = ImageReader::open(path).map_err(io)?.with_guessed_format().map_err(io)?;
+    let Some(ImageFormat::Png | ImageFormat::Hdr) = reader.format() else {
+        return Err(MaterialError::picture(path, "expected a .png or .hdr picture"));
+    };
+    let picture = reader.decode().map_err(|error| MaterialError::picture(path, error))?;
+    let width = picture.width() as usize;
+    let pixels = match picture {
+        DynamicImage::ImageRgb32F(linear) => linear.pixels().map(|p| Vec3::from(p.0)).collect(),
+        coded => {
+            let linear: Vec<f32> = (0..=u16::MAX).map(|v| linear(f32::from(v) / 65535.0)).collect();
+            let coded = coded.into_rgb16();
+            coded.pixels().map(|p| Vec3::from(p.0.map(|v| linear[usize::from(v)]))).collect()
+        }
+    };
+    Ok((width, pixels))
 }
 
 /// IEC 61966-2-1.

@@ -38,6 +38,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     if baked.is_some() {
         done.input = args.input().display().to_string();
     }
+    done.add(material::left_out(&args.material)?);
     done.seconds = start.elapsed().as_secs_f64();
     report::print_done(&done, args.json)?;
     checker.map_or(Ok(Outcome::Good), |checker| usd::check(&checker, output))

@@ -61,6 +61,11 @@ impl Done {
         Ok(())
     }
 
+    /// Something else to warn of, if there is.
+    pub(crate) fn add(&mut self, warning: Option<String>) {
+        self.warnings.extend(warning);
+    }
+
     pub(crate) fn finish(&mut self, strands: u64, points: u64, output_bytes: u64, lost: &[Warning]) {
         (self.strands, self.points) = (strands, points);
         self.output_bytes = output_bytes;

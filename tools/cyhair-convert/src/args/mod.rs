@@ -16,7 +16,7 @@ use clap::Parser;
 use groom_formats::Format;
 
 use look::Look;
-pub(crate) use material::{Material, Source};
+pub(crate) use material::{MaterialOptions, Source};
 use measuring::Measuring;
 use reading::Reading;
 pub(crate) use strands::Strands;
@@ -31,6 +31,7 @@ Exit status: 0 done, 1 --check found errors, 2 could not (bad input or usage), 1
 Examples:
   cyhair-convert head.hair head.usda --meters-per-unit 0.00254
   cyhair-convert head.hair head.usdc --for unreal --material melanin:0.6,0.1 --check
+  cyhair-convert head.hair head.usda --material preset:human-red
   cyhair-convert walk.####.hair walk.abc --fps 30
   cyhair-convert head.hair - --to txt --stride 100 | head
   cyhair-convert head.hair --info --json";
@@ -93,7 +94,7 @@ pub(crate) struct Args {
     pub(crate) measuring: Measuring,
 
     #[command(flatten)]
-    pub(crate) material: Material,
+    pub(crate) material: MaterialOptions,
 }
 
 impl Args {
