@@ -3,7 +3,7 @@
 use std::io::Write;
 use std::path::PathBuf;
 
-use anyhow::{Context, Result, ensure};
+use anyhow::{Context, Result, bail};
 use command_line::Outcome;
 use hair_render::RenderError;
 use look_sweep::{Row, RowReport, SweepError, SweepOptions, SweptRow, page};
@@ -44,7 +44,9 @@ pub struct Args {
 /// Runs the subcommand.
 pub fn run(args: &Args) -> Result<Outcome> {
     let rows = Row::named(&args.only)?;
-    ensure!(!args.output.is_file(), "{} is a file, expected a folder", args.output.display());
+    if let Some(file) = args.output.ancestors().find(|path| path.is_file()) {
+        bail!("{} is a file, expected a folder", file.display());
+    }
     let options = SweepOptions { size: args.size, spp: args.spp, seed: args.seed, threads: args.threads };
     let mut stage = args.groom.stage()?;
     command_line::on_interrupt_ask();

@@ -197,3 +197,81 @@ fn answers_that_nothing_explains_are_found_wanting() {
     assert_eq!(wanting.status.code(), Some(1), "{}", words(&wanting));
     assert!(String::from_utf8_lossy(&wanting.stdout).contains("x (1 rows): NOT EXPLAINED"));
 }
+
+/// A groom of a few strands, in the text format.
+fn few_strands() -> String {
+    let strand = |k: u32| (0..3).map(move |i| format!("{} {} 0\n", f64::from(k) * 0.01, f64::from(i) * 0.1));
+    "20\n".to_owned()
+        + &(0..20).map(|k| "3\n".to_owned() + &strand(k).collect::<String>()).collect::<String>()
+}
+
+#[test]
+fn a_sweep_is_a_folder_of_sheets_with_their_page() {
+    let folder = folder("sweep");
+    std::fs::write(folder.join("few.txt"), few_strands()).unwrap();
+    let small =
+        ["sweep", "--groom", "few.txt", "--size", "16", "--spp", "2", "--only", "wet", "--only", "alpha"];
+    let done = run(&folder, &[&small[..], &["-o", "a/b", "--json"]].concat());
+    assert_eq!(done.status.code(), Some(0), "{}", words(&done));
+    assert_eq!(names(&folder.join("a/b")), ["alpha.png", "sweeps.html", "sweeps.json", "wet.png"]);
+    assert_eq!(done.stdout, std::fs::read(folder.join("a/b/sweeps.json")).unwrap());
+    let rows: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    let cells = |row: usize| rows[row]["cells"].as_array().unwrap();
+    assert_eq!((rows[0]["name"].as_str(), cells(0).len()), (Some("alpha"), 2));
+    assert!(cells(1).iter().all(|cell| cell["mean"][0].as_f64().unwrap() > 0.0), "{rows}");
+
+    let again = run(&folder, &[&small[..], &["-o", "one", "--threads", "1"]].concat());
+    assert!(again.status.success() && again.stdout.is_empty(), "{}", words(&again));
+    let sheet = |place: &str| std::fs::read(folder.join(place)).unwrap();
+    assert!(sheet("a/b/wet.png") == sheet("one/wet.png"), "the number of threads must not show");
+}
+
+#[test]
+fn colours_are_matched_on_a_groom_and_told() {
+    let folder = folder("colors");
+    std::fs::write(folder.join("few.txt"), few_strands()).unwrap();
+    let small = ["colors", "--groom", "few.txt", "--size", "8", "--spp", "8", "--tolerance", "0.1"];
+    let done = run(&folder, &[&small[..], &["--json"]].concat());
+    assert!(matches!(done.status.code(), Some(0 | 1)), "{}", words(&done));
+    let lines: serde_json::Value = serde_json::from_slice(&done.stdout).unwrap();
+    let lines = lines.as_array().unwrap();
+    let undecided = lines.iter().any(|line| line["reach"].as_array().unwrap().iter().any(|r| r == "not_yet"));
+    assert_eq!(done.status.code() == Some(1), undecided, "wanting where a channel is undecided");
+    let table = run(&folder, &small);
+    let table = String::from_utf8(table.stdout).unwrap();
+    assert_eq!(table.lines().count(), lines.len() + 1);
+    for line in lines {
+        assert!(table.contains(line["name"].as_str().unwrap()), "{table}");
+    }
+    assert_eq!(names(&folder), ["few.txt"]);
+}
+
+#[test]
+fn sweeps_and_colours_that_cannot_be_leave_nothing() {
+    let folder = folder("no-sweep");
+    std::fs::write(folder.join("few.txt"), few_strands()).unwrap();
+    std::fs::write(folder.join("bad.txt"), "1\n3\n0 0 0\n0 nan\n").unwrap();
+    std::fs::write(folder.join("no.hair"), "HAIR").unwrap();
+    let kept = names(&folder);
+    // So many samples that a test which waited for them would not end.
+    let forever = ["--spp", "40000000"];
+    for (arguments, says) in [
+        (&["sweep", "-o", "out", "--groom", "bad.txt"][..], "bad.txt"),
+        (&["sweep", "-o", "out", "--groom", "no.hair"], "no.hair"),
+        (&["sweep", "-o", "out", "--groom", "none.hair"], "none.hair"),
+        (&["sweep", "-o", "out", "--only", "glint"], "beta-m"),
+        (&["sweep", "-o", "out", "--groom", "few.txt", "--size", "8"], "16..=4096"),
+        (&["sweep", "-o", "few.txt", "--groom", "few.txt"], "few.txt is a file"),
+        (&["sweep", "-o", "few.txt/out", "--groom", "few.txt"], "few.txt is a file"),
+        (&["colors", "--groom", "bad.txt"], "bad.txt"),
+        (&["colors", "--groom", "none.hair"], "none.hair"),
+        (&["colors", "--groom", "few.txt", "--size", "7"], "8..=1024"),
+        (&["colors", "--groom", "few.txt", "--tolerance", "nan"], "tolerance"),
+    ] {
+        let refused = run(&folder, &[arguments, &forever].concat());
+        let told = words(&refused);
+        assert_eq!(refused.status.code(), Some(2), "{arguments:?}: {told}");
+        assert!(told.contains(says) && refused.stdout.is_empty(), "{arguments:?}: {told}");
+        assert_eq!(names(&folder), kept, "{arguments:?}");
+    }
+}

@@ -157,9 +157,10 @@ pub struct Fibre {
     /// Colour r,g,b instead of the groom's own, linear Rec. 709
     #[arg(long, value_name = "RGB", value_parser = parse_rgb)]
     pub color: Option<Vec3>,
-    /// Change the absorption until this groom, lit evenly, has the colour of `--color` as its mean: takes
-    /// some small renders first, and tells how far off Chiang's fit was
-    #[arg(long, requires = "color")]
+    /// Change the absorption until this groom, lit evenly, has the one colour it was given (`--color`, or
+    /// `color` in the material) as its mean: takes some small renders first, and tells how far off Chiang's
+    /// fit was
+    #[arg(long)]
     pub match_color: bool,
     /// Melanin concentration and redness, 0..1 each
     #[arg(long, value_name = "C,R", conflicts_with = "color")]

@@ -1,6 +1,7 @@
 //! `hair-render`: path-traces a groom to a multi-layer EXR with an honest error figure.
 
 mod args;
+mod color_match;
 mod picture;
 mod presets;
 mod scene;

@@ -7,16 +7,15 @@ use anyhow::{Context, Result};
 use command_line::{Bar, Outcome};
 use glam::{DVec3, Vec3};
 use hair_render::{
-    Aov, AovSet, Backdrop, Background, Camera, ColorMatch, ColorMatching, Frame, FrameReport, Metadata,
-    Precision, Progress, Reach, RenderError, RenderSettings, Scene, SceneDescription, TableUse, ToneMapping,
-    check_output, tone_map,
+    Aov, AovSet, Backdrop, Background, Camera, ColorMatch, Frame, FrameReport, Metadata, Precision, Progress,
+    RenderError, RenderSettings, Scene, SceneDescription, TableUse, ToneMapping, check_output, tone_map,
 };
 
 use crate::args::Args;
-use crate::scene;
+use crate::{color_match, scene};
 
 /// Shows tiles on a bar and stops on Ctrl-C.
-struct OnBar(Bar);
+pub struct OnBar(pub Bar);
 
 impl Progress for OnBar {
     fn advance(&self, done: u64, total: u64) {
@@ -48,6 +47,7 @@ pub fn render(args: &Args) -> Result<Outcome> {
     let target = args.view.look_at.map_or_else(|| middle(&description), |at| at.vector());
     description.lights = scene::lights(&args.light, target)?;
     settings.aovs = args.quality.aovs.unwrap_or_else(|| usual_passes(&description));
+    let picked = if args.fibre.match_color { Some(color_match::picked(&description.hair)?) } else { None };
     if args.explain {
         for left in hair_render::explain(&description, &settings) {
             say(&format!("left out: {}: {}", left.what, left.why));
@@ -57,8 +57,8 @@ pub fn render(args: &Args) -> Result<Outcome> {
     tables(&scene, args.explain);
     let camera = scene::camera(&args.view, &scene)?;
     command_line::on_interrupt_ask();
-    let color_match = match args.fibre.color.filter(|_| args.fibre.match_color) {
-        Some(color) => match match_color(color, &mut scene, &camera, &settings)? {
+    let color_match = match picked {
+        Some(color) => match color_match::run(color, &mut scene, &camera, &settings)? {
             Some(found) => Some(found),
             None => return Ok(Outcome::Interrupted),
         },
@@ -83,44 +83,6 @@ fn tables(scene: &Scene, explain: bool) {
             };
             say(&format!("hair {}: medulla table {source}, {} bytes", table.object, table.bytes));
         }
-    }
-}
-
-/// Gives the hair the absorption that makes it `color`, and says how that went; `None` when Ctrl-C
-/// stopped it.
-fn match_color(
-    color: Vec3,
-    scene: &mut Scene,
-    camera: &Camera,
-    settings: &RenderSettings,
-) -> Result<Option<ColorMatch>> {
-    let bar = OnBar(command_line::progress_bar(1, "matching the colour"));
-    let matching = ColorMatching { color, ..ColorMatching::default() };
-    let result = hair_render::match_color(scene, camera, settings, &matching, &bar);
-    bar.0.finish();
-    let found = match result {
-        Err(RenderError::Cancelled) => return Ok(None),
-        found => found?,
-    };
-    let [r, g, b] = found.absorption;
-    say(&format!(
-        "colour matched by absorption {r:.4},{g:.4},{b:.4}: {:.4} off (Chiang's fit: {:.4}), {} probes, {:.2} s",
-        found.error, found.fit_error, found.probes, found.seconds
-    ));
-    for (channel, reach) in ["red", "green", "blue"].into_iter().zip(found.reach) {
-        if let Some(why) = not_reached(reach) {
-            say(&format!("warning: {channel} is not reached: {why}"));
-        }
-    }
-    Ok(Some(found))
-}
-
-fn not_reached(reach: Reach) -> Option<&'static str> {
-    match reach {
-        Reach::Reached => None,
-        Reach::TooBright => Some("hair that absorbs nothing is still darker"),
-        Reach::TooDark => Some("what the surfaces of black fibres reflect is still lighter"),
-        Reach::NotYet => Some("the probes were used up"),
     }
 }
 
@@ -217,7 +179,8 @@ fn report(
     Ok(())
 }
 
-fn say(line: &str) {
+/// Says a line on stderr.
+pub fn say(line: &str) {
     // `eprintln!` would panic when nobody reads stderr any more.
     let _ = writeln!(std::io::stderr(), "{line}");
 }

@@ -135,6 +135,30 @@ fn a_matched_colour_is_reported_with_both_errors() {
     let found = &report["color_match"];
     assert!(found["error"].as_f64().unwrap() < found["fit_error"].as_f64().unwrap(), "{found}");
     assert!(words.contains("Chiang's fit") && report["spp"] == 2, "{words}");
-    let without = run(&folder, &[&small[..], &["--match-color"]].concat());
-    assert!(without.status.code() == Some(2), "a colour to match must be given");
+    std::fs::write(folder.join("one.yaml"), "color: [0.4, 0.2, 0.1]\nalpha: 2\n").unwrap();
+    let by_file = run(&folder, &[&small[..], &["--material", "one.yaml", "--match-color"]].concat());
+    let again: serde_json::Value = serde_json::from_slice(&by_file.stdout).unwrap();
+    assert_eq!(again["color_match"]["absorption"], found["absorption"], "the same colour, said in a file");
+}
+
+#[test]
+fn what_is_not_one_colour_cannot_be_matched() {
+    let folder = folder("unmatched");
+    std::fs::write(folder.join("ramp.yaml"), "color_ramp: [[0, [1, 0, 0]], [1, [0, 1, 0]]]\n").unwrap();
+    std::fs::write(folder.join("white.yaml"), "color: [0.4, 0.2, 0.1]\nvariation: {white: 0.2}\n").unwrap();
+    for (arguments, says) in [
+        (&["--match-color"][..], "groom's own colour"),
+        (&["--match-color", "--melanin", "0.5,0.5"], "melanin"),
+        (&["--match-color", "--absorption", "0.1"], "an absorption"),
+        (&["--match-color", "--preset", "human-red"], "melanin"),
+        (&["--match-color", "--material", "ramp.yaml"], "root to tip"),
+        (&["--match-color", "--material", "white.yaml"], "variation"),
+        (&["--match-color", "--color", "2,0,0"], "color"),
+    ] {
+        let refused = run(&folder, &[&FOREVER, arguments, &["-o", "no.exr"]].concat());
+        let words = String::from_utf8_lossy(&refused.stderr).into_owned();
+        assert_eq!(refused.status.code(), Some(2), "{arguments:?}: {words}");
+        assert!(words.contains(says), "{arguments:?}: {words}");
+        assert_eq!(names(&folder), ["ramp.yaml", "white.yaml"]);
+    }
 }
