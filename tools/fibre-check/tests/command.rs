@@ -200,9 +200,11 @@ fn answers_that_nothing_explains_are_found_wanting() {
 
 /// A groom of a few strands, in the text format.
 fn few_strands() -> String {
-    let strand = |k: u32| (0..3).map(move |i| format!("{} {} 0\n", f64::from(k) * 0.01, f64::from(i) * 0.1));
-    "20\n".to_owned()
-        + &(0..20).map(|k| "3\n".to_owned() + &strand(k).collect::<String>()).collect::<String>()
+    let strand = |k: u32| {
+        let points = (0..3).map(move |i| format!("{} 0 {} 0.004\n", f64::from(k) * 0.01, f64::from(i) * 0.1));
+        points.collect::<String>()
+    };
+    (0..20).map(strand).collect::<Vec<_>>().join("\n")
 }
 
 #[test]
