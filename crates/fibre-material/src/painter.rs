@@ -130,7 +130,11 @@ impl<'a> Painter<'a> {
         let Place { strand, vertex, along } = place;
         let pigments = self.material.pigments.pigments();
         let fitted = |color: Vec3| -> Result<Vec3, MaterialError> {
-            let color = checked(color, || format!("the colour of strand {strand}"))?;
+            let whose = || match &self.source {
+                Source::Colors(Vec3View::Constant(_)) => "the colour of the hair".to_owned(),
+                _ => format!("the colour of strand {strand}"),
+            };
+            let color = checked(color, whose)?;
             let turned = if lot.hue == 0.0 { color } else { hue::turned(color, lot.hue) };
             Ok(lot.pigment * fit((turned * lot.value).min(Vec3::ONE), beta_n)?)
         };

@@ -153,7 +153,7 @@ fn what_is_not_one_colour_cannot_be_matched() {
         (&["--match-color", "--preset", "human-red"], "melanin"),
         (&["--match-color", "--material", "ramp.yaml"], "root to tip"),
         (&["--match-color", "--material", "white.yaml"], "variation"),
-        (&["--match-color", "--color", "2,0,0"], "color"),
+        (&["--match-color", "--color", "2,0,0"], "the colour of the hair is"),
     ] {
         let refused = run(&folder, &[&FOREVER, arguments, &["-o", "no.exr"]].concat());
         let words = String::from_utf8_lossy(&refused.stderr).into_owned();
