@@ -5,7 +5,7 @@ use crate::arithmetic::real::{Real, four};
 use crate::fur::counts::Counts;
 use crate::fur::grid::{KNOTS, Place, STEP_AROUND, reach};
 use crate::fur::knots::Knots;
-use crate::fur::paths::PathNode;
+use crate::fur::paths::{NODES, PathNode};
 use crate::fur::row::{CLASS_SHARES, CLASSES};
 use crate::fur::table::MedullaTable;
 use crate::hair::longitudinal::Inclination;
@@ -28,14 +28,15 @@ pub(crate) fn passed<T: Real>(table: &MedullaTable, row: usize, [cortex, medulla
                 lanes(from, |node| node.share),
             )
         };
-        let halves = [half(0), half(4)];
+        let (low, high) = (half(0), half(NODES / 2));
+        // No `map` over the halves: it stays a call, which is most of the time of a strand's own colour.
         let channel = |c: usize| {
-            let [low, high] = halves.map(|(in_cortex, in_medulla, share)| {
+            let left = |(in_cortex, in_medulla, share): (T::Four, T::Four, T::Four)| {
                 let depth =
                     in_cortex.times_plus(T::Four::splat(cortex[c]), in_medulla * T::Four::splat(medulla[c]));
                 depth.exp_of_minus() * share
-            });
-            let [a, b, c, d]: [T; 4] = (low + high).into();
+            };
+            let [a, b, c, d]: [T; 4] = (left(low) + left(high)).into();
             (a + b) + (c + d)
         };
         let (red, green, blue) = (channel(0), channel(1), channel(2));
