@@ -1,0 +1,26 @@
+//! What can be wrong with a binding.
+
+/// A binding that cannot be made, or not to this pose.
+#[derive(Debug, thiserror::Error)]
+pub enum BindingError {
+    /// An option is out of range.
+    #[error("{name} is {found}, expected {expected}")]
+    OutOfRange {
+        /// The option.
+        name: &'static str,
+        /// What was given.
+        found: String,
+        /// What would be right.
+        expected: &'static str,
+    },
+    /// The surface, pose or groom does not fit the others.
+    #[error("{place}: {found}, expected {expected}")]
+    Invalid {
+        /// Where: vertex, triangle or strand.
+        place: String,
+        /// What was found there.
+        found: String,
+        /// What would be right.
+        expected: String,
+    },
+}
