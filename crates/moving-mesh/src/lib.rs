@@ -14,7 +14,9 @@
 mod error;
 mod gltf_file;
 mod obj_file;
+mod pose;
 mod triangle_mesh;
 
 pub use error::MeshError;
+pub use pose::Pose;
 pub use triangle_mesh::TriangleMesh;
