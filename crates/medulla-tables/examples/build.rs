@@ -3,7 +3,7 @@
 //! `cargo run --release -p medulla-tables --example build [walks per ray [walks per row]]`
 #![allow(clippy::print_stdout)] // figures are what this program is for
 
-#[path = "../../fibre-scattering/tests/brute_force/mod.rs"]
+#[path = "../../fibre-scattering/tests/fibres/brute_force/mod.rs"]
 mod brute_force;
 
 use std::f64::consts::TAU;

@@ -1,19 +1,15 @@
 //! Fur: hair without a medulla, energy, sampling, and agreement with walks of another make.
-#![allow(clippy::unwrap_used)] // tests fail by panicking
-
-mod brute_force;
-mod support;
 
 use std::f64::consts::{PI, TAU};
 use std::sync::{Arc, LazyLock};
 
-use brute_force::{Chance, Cylinders, SET_A, SET_B};
+use crate::brute_force::{Chance, Cylinders, SET_A, SET_B};
+use crate::support::{Random, direction, single};
 use fibre_scattering::{
     Absorption, FurBcsdf, FurParameters, FurReference, HairBcsdf, HairParameters, Lobe, Medulla, MedullaKey,
     MedullaTable, WaterFilm, YanBcsdf, YanForm, YanPath,
 };
 use glam::Vec3;
-use support::{Random, direction, single};
 
 fn parameters(cylinders: &Cylinders) -> FurParameters {
     let hair = HairParameters {

@@ -1,5 +1,4 @@
 //! Grooms for the tests.
-#![allow(dead_code)] // no test uses all of them
 
 use glam::{Vec3, Vec3Swizzles};
 use groom::{Attribute, Domain, Groom, Values, names, random};

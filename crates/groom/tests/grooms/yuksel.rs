@@ -1,6 +1,4 @@
 //! Figures of a model by another hand, against those known of it.
-#![allow(clippy::unwrap_used)] // helpers of tests count as tests
-
 use std::io::Write;
 use std::path::PathBuf;
 

@@ -1,12 +1,9 @@
 //! Laws of what changes the shape of strands, and of measuring the change.
-#![allow(clippy::unwrap_used)] // helpers of tests count as tests
 
-mod support;
-
+use crate::support::{floats, from_strands, grooms, ints, wavy};
 use glam::{DVec3, Vec3};
 use groom::{Distance, Grid, Groom, GroomError, Smoothing, Statistics};
 use proptest::prelude::*;
-use support::{floats, from_strands, grooms, ints, wavy};
 
 /// The distance from a point to a polyline, by another road: dense samples of each segment, refined about
 /// the best one. Never less than the true distance.

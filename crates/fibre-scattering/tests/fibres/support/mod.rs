@@ -1,5 +1,5 @@
 //! What the tests share: cases, where their lobes lie, quadrature that finds them, random numbers.
-#![allow(dead_code, clippy::unwrap_used)] // each test uses a part; a test may panic
+#![allow(clippy::unwrap_used)] // a test may panic
 
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 

@@ -1,9 +1,7 @@
 //! A fibre without absorption returns all light, whatever its shape and from wherever it is lit.
 
-mod support;
-
+use crate::support::{Case, PLAIN, Random, WATER, scattered};
 use fibre_scattering::{HairBcsdf, HairParameters, RoughnessScales, WaterFilm};
-use support::{Case, PLAIN, Random, WATER, scattered};
 
 const ROUGHNESS: [(f64, f64); 9] = [
     (0.001, 0.001),
@@ -170,8 +168,8 @@ fn the_mean_weight_of_samples_is_the_albedo() {
 #[test]
 fn lobe_weights_multiply_their_lobe_alone() {
     let parameters = PLAIN.parameters();
-    let wo = support::single(PLAIN.wo());
-    let wi = support::single(support::direction(-0.3, 2.0));
+    let wo = crate::support::single(PLAIN.wo());
+    let wi = crate::support::single(crate::support::direction(-0.3, 2.0));
     let plain = HairBcsdf::new(&parameters).unwrap().at(wo, 0.3).evaluate(wi);
     let weighted = HairParameters { lobe_weights: [0.5, 0.0, 2.0, 1.0, 1.0], ..parameters };
     let scatter = HairBcsdf::new(&weighted).unwrap().at(wo, 0.3);

@@ -1,10 +1,6 @@
 //! Laws that hold for every fibre: no NaN, symmetry, monotony, bounds that are kept.
 
-#![allow(clippy::print_stdout, clippy::unwrap_used)] // helpers of tests, outside the tests themselves
-
-mod support;
-
-use support::WATER;
+use crate::support::WATER;
 
 use fibre_scattering::{
     Absorption, FarFieldBcsdf, HairBcsdf, HairParameters, ReferenceBcsdf, RoughnessScales, ScatteringError,
@@ -204,11 +200,14 @@ proptest! {
 fn a_positive_tilt_turns_r_to_the_root_and_the_others_to_the_tip() {
     let (theta_o, alpha) = (0.35_f64, 3.0_f32.to_radians());
     let parameters = HairParameters { beta_m: 0.03, beta_n: 0.9, alpha, ..HairParameters::default() };
-    let scatter =
-        HairBcsdf::new(&parameters).unwrap().at(support::single(support::direction(theta_o, 0.0)), 0.2);
+    let scatter = HairBcsdf::new(&parameters)
+        .unwrap()
+        .at(crate::support::single(crate::support::direction(theta_o, 0.0)), 0.2);
     for (lobe, turn) in [(0, -2.0), (1, 1.0), (2, 4.0)] {
         // An azimuth that every lobe reaches: only the inclination of the peak is asked for.
-        let value = |theta: f64| scatter.evaluate(support::single(support::direction(theta, 2.0))).0[lobe].x;
+        let value = |theta: f64| {
+            scatter.evaluate(crate::support::single(crate::support::direction(theta, 2.0))).0[lobe].x
+        };
         let places = (-1500..1500).map(|i| f64::from(i) * 1e-3);
         let peak = places.max_by(|&a, &b| value(a).total_cmp(&value(b))).unwrap();
         let expected = -theta_o + turn * f64::from(alpha);
@@ -226,8 +225,8 @@ fn averaged_over_offsets_equal_inclinations_are_reciprocal() {
         ..HairParameters::default()
     })
     .unwrap();
-    let a = support::single(support::direction(0.5, 0.0));
-    let b = support::single(support::direction(-0.5, 1.3));
+    let a = crate::support::single(crate::support::direction(0.5, 0.0));
+    let b = crate::support::single(crate::support::direction(-0.5, 1.3));
     let average = |wo: Vec3, wi: Vec3| {
         let count = 400;
         let offset = |i| (i as f32 + 0.5) / count as f32 * 2.0 - 1.0;
@@ -241,7 +240,7 @@ fn averaged_over_offsets_equal_inclinations_are_reciprocal() {
 /// Per offset: what is scattered, what of it in R, and how far forward it goes on the mean (1 straight on).
 fn seen_by_eye(parameters: &HairParameters) -> (f64, f64, f64) {
     let bcsdf = HairBcsdf::new(parameters).unwrap();
-    let wo = support::single(support::direction(0.3, 0.0));
+    let wo = crate::support::single(crate::support::direction(0.3, 0.0));
     let (mut all, mut first, mut forward) = (0.0, 0.0, 0.0);
     let count = 64;
     for node in 0..count {
@@ -252,7 +251,8 @@ fn seen_by_eye(parameters: &HairParameters) -> (f64, f64, f64) {
         // Azimuths of the lobes' middles: TT goes on, R and TRT come back, the residual goes anywhere.
         for (lobe, share) in scatter.albedo().into_iter().enumerate().take(3) {
             let h = f64::from((node as f32 + 0.5) / count as f32 * 2.0 - 1.0);
-            let phi = support::Case { h, theta_o: 0.3_f64.to_degrees(), ..support::PLAIN }.phis()[lobe];
+            let phi = crate::support::Case { h, theta_o: 0.3_f64.to_degrees(), ..crate::support::PLAIN }
+                .phis()[lobe];
             forward -= phi.cos() * f64::from(share.y) / f64::from(count);
         }
     }
@@ -272,9 +272,9 @@ fn wet_hair_is_darker_and_shinier() {
     assert!(all_wet < 0.995 * all_dry && r_wet < 0.8 * r_dry && on_wet > on_dry + 0.05);
 
     let peak = |parameters: &HairParameters| {
-        let wo = support::single(support::direction(0.3, 0.0));
+        let wo = crate::support::single(crate::support::direction(0.3, 0.0));
         let scatter = HairBcsdf::new(parameters).unwrap().at(wo, 0.0);
-        let at = |theta: i32| support::single(support::direction(f64::from(theta) * 1e-3, 0.0));
+        let at = |theta: i32| crate::support::single(crate::support::direction(f64::from(theta) * 1e-3, 0.0));
         (-1500..1500).map(|theta| scatter.evaluate(at(theta)).0[0].y).fold(0.0, f32::max)
     };
     println!("peak of R {:.3} -> {:.3}", peak(&dry), peak(&wet));
@@ -303,8 +303,11 @@ fn an_ellipse_that_is_nearly_round_is_nearly_the_round_fibre() {
         let mut worst = 0.0_f32;
         for step in 0..400 {
             let along = f64::from(step % 20) * 0.07 - 0.7;
-            let wo = support::single(support::direction(0.7 - 0.003 * f64::from(step), f64::from(step)));
-            let wi = support::single(support::direction(along, f64::from(step) * 1.7));
+            let wo = crate::support::single(crate::support::direction(
+                0.7 - 0.003 * f64::from(step),
+                f64::from(step),
+            ));
+            let wi = crate::support::single(crate::support::direction(along, f64::from(step) * 1.7));
             let h = 0.95 - 0.00475 * step as f32;
             let (a, b) = (round.at(wo, h).evaluate(wi), ellipse.at(wo, h).evaluate(wi));
             for (a, b) in a.0.into_iter().zip(b.0) {

@@ -1,13 +1,9 @@
 //! Mitsuba 3's hair, and an exact evaluation of the published formulas, on a grid of 10,080 rows.
 
-#![allow(clippy::print_stdout, clippy::unwrap_used)] // helpers of tests, outside the tests themselves
-
-mod support;
-
 use std::io::Write;
 use std::path::PathBuf;
 
-use support::{Case, PLAIN, direction, single};
+use crate::support::{Case, PLAIN, direction, single};
 
 struct Row {
     set: String,

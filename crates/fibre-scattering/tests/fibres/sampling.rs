@@ -1,11 +1,9 @@
 //! Samples follow the density, the density integrates to 1, and both are what evaluation says.
 
-mod support;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use crate::support::{Case, PLAIN, Random, WATER, deviate, edges, gauss, single, wrapped};
 use fibre_scattering::{RoughnessScales, WaterFilm};
-use support::{Case, PLAIN, Random, WATER, deviate, edges, gauss, single, wrapped};
 
 fn cases() -> Vec<Case> {
     let mut cases = Vec::new();

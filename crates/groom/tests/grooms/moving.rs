@@ -1,12 +1,9 @@
 //! Laws of moving a groom as a whole.
-#![allow(clippy::unwrap_used)] // helpers of tests count as tests
 
-mod support;
-
+use crate::support::{floats, grooms, ints, vec3s, wavy};
 use glam::{DMat4, DQuat, DVec3, Vec3};
 use groom::{Groom, UpAxis};
 use proptest::prelude::*;
-use support::{floats, grooms, ints, vec3s, wavy};
 
 fn matrices() -> impl Strategy<Value = DMat4> {
     let vector = |range: std::ops::Range<f64>| prop::array::uniform3(range).prop_map(DVec3::from);

@@ -1,16 +1,12 @@
 //! The far field against the near field's mean over offsets: energy, error, sampling.
 
-#![allow(clippy::print_stdout, clippy::unwrap_used)] // helpers of tests, outside the tests themselves
-
-mod support;
-
 use std::f64::consts::{FRAC_PI_2, PI};
 
+use crate::support::{Case, PLAIN, Random, WATER, deviate, gauss, single};
 use fibre_scattering::{
     Absorption, FarFieldBcsdf, FarFieldScatter, HairBcsdf, HairParameters, ScatteringError, WaterFilm,
 };
 use glam::Vec3;
-use support::{Case, PLAIN, Random, WATER, deviate, gauss, single};
 
 fn far(case: &Case, nodes: u32) -> FarFieldScatter {
     let absorption = Absorption::of_cortex(case.parameters().sigma_a).unwrap();
@@ -122,9 +118,9 @@ fn a_white_fibre_returns_all_light() {
                         continue;
                     }
                     let around = around.iter().sum::<f64>() * 2.0 * PI / azimuths.len() as f64;
-                    let edges = support::edges(-FRAC_PI_2, FRAC_PI_2, &[(thetas[p], sigmas[p])]);
+                    let edges = crate::support::edges(-FRAC_PI_2, FRAC_PI_2, &[(thetas[p], sigmas[p])]);
                     let parts = if beta_m < 0.005 { 6 } else { 1 };
-                    let along = support::integral(&edges, parts, |t| values(t, at)[p] * t.cos());
+                    let along = crate::support::integral(&edges, parts, |t| values(t, at)[p] * t.cos());
                     total += along * around / peak;
                 }
                 let error = (total - 1.0).abs();
@@ -191,7 +187,7 @@ fn samples_follow_the_density_and_are_what_evaluation_says() {
                 *cell += gauss(low, low + step.0 / 2.0, |t| {
                     t.cos()
                         * gauss(left, left + step.1 / 2.0, |x| {
-                            f64::from(scatter.pdf(single(support::direction(t, x))))
+                            f64::from(scatter.pdf(single(crate::support::direction(t, x))))
                         })
                 });
             }

@@ -1,11 +1,8 @@
 //! Laws of giving strands colours, widths and numbers.
-#![allow(clippy::unwrap_used)] // helpers of tests count as tests
 
-mod support;
-
+use crate::support::{floats, from_strands, ints, vec3s, wavy};
 use glam::{Vec2, Vec3};
 use groom::{Attribute, Domain, Groom, GroomError, Texture, VAxis, Values, names};
-use support::{floats, from_strands, ints, vec3s, wavy};
 
 fn set(groom: &mut Groom, name: &str, text: &str, seed: u64) -> Result<(), GroomError> {
     groom.set(name, &text.parse()?, seed)

@@ -1,13 +1,10 @@
 //! Laws of picking guides.
-#![allow(clippy::unwrap_used)] // helpers of tests count as tests
-
-mod support;
 
 use std::collections::BTreeSet;
 
+use crate::support::{grooms, ints, wavy};
 use groom::{Distance, Groom, names};
 use proptest::prelude::*;
-use support::{grooms, ints, wavy};
 
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(200))]

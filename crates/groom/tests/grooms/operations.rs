@@ -1,6 +1,4 @@
 //! Laws of what can be done to a groom.
-#![allow(clippy::unwrap_used)] // helpers of tests count as tests
-
 use glam::Vec3;
 use groom::{Attribute, Domain, Groom, Repair, Statistics, UpAxis, Values, names};
 use proptest::prelude::*;
