@@ -41,7 +41,7 @@ pub(crate) fn roots(count: u32) -> impl Iterator<Item = Vec3> {
 }
 
 /// Whether hair grows in that direction: above a hairline high over the face and low in the neck.
-fn is_scalp(direction: Vec3) -> bool {
+pub(crate) fn is_scalp(direction: Vec3) -> bool {
     let front = direction.z;
     let hairline = if front > 0.0 { 0.02 + 0.62 * front } else { 0.02 + 0.42 * front };
     direction.y > hairline

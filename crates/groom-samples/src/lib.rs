@@ -18,10 +18,12 @@ mod grow;
 mod hair;
 mod head;
 mod mesh;
+mod nodding_head;
 mod options;
 mod trigonometry;
 
 pub use hair::hair;
 pub use head::HEAD_RADII;
 pub use mesh::head_obj;
+pub use nodding_head::nodding_head_glb;
 pub use options::{Options, SampleError, Style};

@@ -9,7 +9,7 @@ use crate::trigonometry::{cos, sin};
 
 /// How much smaller than the roots' surface the mesh is, so that the straight pieces hair is made of
 /// do not cut through it.
-const SHRINK: f32 = 0.97;
+pub(crate) const SHRINK: f32 = 0.97;
 
 /// The head as a Wavefront OBJ file: an ellipsoid of quads and triangles with smooth normals, y up,
 /// in metres, a little smaller than the surface the hair grows on.

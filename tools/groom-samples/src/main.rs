@@ -35,6 +35,12 @@ enum Command {
         #[arg(short, long, value_name = "FILE.obj")]
         output: PathBuf,
     },
+    /// Writes the head as a character that nods, as binary glTF: two joints, a morph target, two animations
+    NoddingHead {
+        /// The file to write
+        #[arg(short, long, value_name = "FILE.glb")]
+        output: PathBuf,
+    },
 }
 
 #[derive(Args)]
@@ -65,6 +71,9 @@ fn main() -> ExitCode {
         match (cli.command, cli.hair) {
             (Some(Command::Head { output }), _) => {
                 whole_file::write_whole(output, groom_samples::head_obj().as_bytes())?;
+            }
+            (Some(Command::NoddingHead { output }), _) => {
+                whole_file::write_whole(output, &groom_samples::nodding_head_glb())?;
             }
             (None, Some(args)) => make_hair(&args)?,
             (None, None) => anyhow::bail!("nothing to make; see --help"),
