@@ -89,7 +89,7 @@ impl<'a> PathTracer<'a> {
     /// The light that comes back along a camera ray.
     pub fn trace(&mut self, origin: Vec3, direction: Vec3, sampler: &Sampler) -> PathLight {
         let mut light = PathLight::default();
-        let ray = Ray { origin, direction, t_max: f32::INFINITY };
+        let ray = Ray { origin, direction, t_max: f32::INFINITY, time: 0.0 };
         let Some(hit) = self.closest(ray, None, sampler, CAMERA_SET) else {
             if self.settings.background == Background::Visible {
                 light.parts[BACKGROUND] = self.scene.lights.environment_radiance(direction);
@@ -162,7 +162,7 @@ impl<'a> PathTracer<'a> {
             if (throughput * first_weight).max_element() <= 0.0 {
                 break;
             }
-            let ray = Ray { origin: start, direction: wi, t_max: f32::INFINITY };
+            let ray = Ray { origin: start, direction: wi, t_max: f32::INFINITY, time: 0.0 };
             let next = self.closest(ray, Some(hit.primitive), sampler, pass_set);
             later += throughput * self.emitted(&ray, pdf, self.candidates(&vertex), next.as_ref());
             match next {
@@ -216,7 +216,7 @@ impl<'a> PathTracer<'a> {
             }
         }
         let (candidate, importance) = chosen?;
-        let ray = Ray { origin: start, direction: candidate.direction, t_max: candidate.distance };
+        let ray = Ray { origin: start, direction: candidate.direction, t_max: candidate.distance, time: 0.0 };
         if self.hidden(ray, leaving, sampler, pass_set) {
             return None;
         }

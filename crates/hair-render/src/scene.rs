@@ -164,6 +164,7 @@ fn build_tracer(hair: &[HairObject], meshes: &[MeshObject], center: DVec3) -> Re
         .map(|(object, (positions, radii))| Strands {
             offsets: object.groom.offsets(),
             positions,
+            moved: &[],
             radii: match radii {
                 OwnRadii::Constant(radius) => Radii::Constant(*radius),
                 OwnRadii::PerVertex(radii) => Radii::PerVertex(radii),
@@ -177,7 +178,7 @@ fn build_tracer(hair: &[HairObject], meshes: &[MeshObject], center: DVec3) -> Re
     let triangles: Vec<Triangles> = meshes
         .iter()
         .zip(&vertices)
-        .map(|(m, positions)| Triangles { positions, indices: &m.mesh.triangles })
+        .map(|(m, positions)| Triangles { positions, indices: &m.mesh.triangles, moved: &[] })
         .collect();
     Ok(Tracer::build(&strands, &triangles, &BuildOptions::default())?)
 }

@@ -107,7 +107,7 @@ fn camera_rays(tracer: &Tracer, side: u32) -> Vec<Ray> {
     (0..side * side)
         .map(|i| {
             let direction = ahead + right * pixel(i % side) * 0.7 + up * pixel(i / side) * 0.7;
-            Ray { origin: eye, direction: direction.normalize(), t_max: f32::INFINITY }
+            Ray { origin: eye, direction: direction.normalize(), t_max: f32::INFINITY, time: 0.0 }
         })
         .collect()
 }
@@ -117,7 +117,7 @@ fn bounces(hits: &[Hit]) -> Vec<(Ray, Primitive)> {
     hits.iter()
         .map(|hit| {
             let direction = random.direction();
-            (Ray { origin: hit.position, direction, t_max: f32::INFINITY }, hit.primitive)
+            (Ray { origin: hit.position, direction, t_max: f32::INFINITY, time: 0.0 }, hit.primitive)
         })
         .collect()
 }
@@ -133,6 +133,7 @@ fn main() {
             offsets: &hair.offsets,
             positions: &hair.positions,
             radii: Radii::PerVertex(&hair.radii),
+            moved: &[],
         };
         let mut rays = None;
         // Standard last: it is built like `obvhs`'s medium, so compared with it.

@@ -68,6 +68,54 @@ pub enum TracingError {
         /// How many vertices there are.
         vertices: usize,
     },
+    /// A key has not as many points as the strands.
+    #[error("strands {object}: {found} points at key {key}, expected {expected} as at key 0")]
+    MovedPoints {
+        /// Which of the strands objects.
+        object: usize,
+        /// Which key; `moved` starts with key 1.
+        key: usize,
+        /// How many points the key has.
+        found: usize,
+        /// How many there are at key 0.
+        expected: usize,
+    },
+    /// A strand's point is not finite at a further key.
+    #[error("strands {object}: point {point} is {found} at key {key}, expected finite numbers")]
+    MovedPosition {
+        /// Which of the strands objects.
+        object: usize,
+        /// Which key; `moved` starts with key 1.
+        key: usize,
+        /// Index into the positions.
+        point: usize,
+        /// The value there.
+        found: glam::Vec3,
+    },
+    /// A key has not as many vertices as the triangles.
+    #[error("triangles {object}: {found} vertices at key {key}, expected {expected} as at key 0")]
+    MovedVertices {
+        /// Which of the triangles objects.
+        object: usize,
+        /// Which key; `moved` starts with key 1.
+        key: usize,
+        /// How many vertices the key has.
+        found: usize,
+        /// How many there are at key 0.
+        expected: usize,
+    },
+    /// A triangle's vertex is not finite at a further key.
+    #[error("triangles {object}: vertex {vertex} is {found} at key {key}, expected finite numbers")]
+    MovedVertex {
+        /// Which of the triangles objects.
+        object: usize,
+        /// Which key; `moved` starts with key 1.
+        key: usize,
+        /// Index into the positions.
+        vertex: usize,
+        /// The value there.
+        found: glam::Vec3,
+    },
     /// More points or triangles than a tree can number.
     #[error("{found} {what}, but one tracer holds at most {most}")]
     TooMany {

@@ -1,19 +1,16 @@
-//! The strands' points in one array, and what it means for a ray to be inside a fibre.
+//! The strands' points in one array.
 //!
 //! A segment's number is the index of its first point, so its data is the 32 bytes from there on, its
 //! neighbours along the strand lie beside it, and the tree's leaves need no table of indices.
 
-use glam::{DVec3, Vec4, Vec4Swizzles};
+use glam::{DVec3, Vec3, Vec4};
 
-use crate::cone_sphere::ConeSphere;
-use crate::line::Line;
+use crate::inside::Departure;
+use crate::keys;
+use crate::meshes::Meshes;
+use crate::pose::{Pose, Still};
+use crate::tracks::Tracks;
 use crate::{Primitive, Radii, Strands, TracingError};
-
-/// An entry point counts as inside a neighbour when it is deeper than this share of the radius: points on
-/// the joint they share are on both surfaces.
-const ON_SURFACE: f64 = 1e-5;
-/// How many neighbours along the strand are looked at on either side for an entry inside them.
-const NEIGHBOURS: u32 = 8;
 
 /// All strands of all objects.
 #[derive(Clone, Debug, Default)]
@@ -27,13 +24,8 @@ pub(crate) struct Fibres {
     objects: Vec<u32>,
     /// Directions of segments without length, sorted by number.
     borrowed: Vec<(u32, DVec3)>,
-}
-
-/// The stretch a ray starts in while it is still inside the fibre it leaves.
-pub(crate) struct Departure {
-    /// Numbers of the strand's points.
-    strand: std::ops::Range<u32>,
-    segment: u32,
+    /// Positions of the points at further keys.
+    tracks: Tracks<Vec3>,
 }
 
 impl Fibres {
@@ -58,6 +50,7 @@ impl Fibres {
     fn append(&mut self, object: usize, strands: &Strands) -> Result<(), TracingError> {
         check_offsets(object, strands)?;
         check_radii(object, strands)?;
+        keys::check_points(object, strands)?;
         let base = self.points.len() as u32;
         for (point, &position) in strands.positions.iter().enumerate() {
             if !position.is_finite() {
@@ -69,6 +62,9 @@ impl Fibres {
             };
             self.points.push(position.extend(radius.abs()));
         }
+        if keys::any_moves(strands.positions, strands.moved) {
+            self.tracks.push(base, strands.moved.iter().map(|key| key.to_vec()).collect());
+        }
         for pair in strands.offsets.windows(2) {
             self.firsts.push(base + pair[0]);
             if pair[1] > pair[0] {
@@ -79,29 +75,31 @@ impl Fibres {
         Ok(())
     }
 
-    /// Gives every segment without length the direction of the nearest one of its strand that has one.
+    /// Gives every segment without length a direction.
     fn borrow_directions(&mut self) {
-        let without: Vec<u32> =
-            self.numbers().filter(|&n| self.cone(n).is_some_and(|c| c.ab == DVec3::ZERO)).collect();
-        for number in without {
-            let direction = (1..=self.points.len() as u32)
-                .map_while(|step| {
-                    let back = number.checked_sub(step).filter(|&n| self.joined(n, number));
-                    let forth = number.checked_add(step).filter(|&n| self.joined(number, n));
-                    (back.is_some() || forth.is_some()).then_some([back, forth])
-                })
-                .flatten()
-                .flatten()
-                .filter_map(|n| self.cone(n))
-                .find(|c| c.ab != DVec3::ZERO)
-                .map_or(DVec3::Y, |c| c.ab.normalize_or(DVec3::Y));
-            self.borrowed.push((number, direction));
-        }
+        let pose = Still { fibres: self, meshes: &Meshes::default() };
+        let without = self.numbers().filter(|&n| pose.cone(n).is_some_and(|c| c.ab == DVec3::ZERO));
+        self.borrowed = without.map(|number| (number, self.nearest_direction(number, &pose))).collect();
+    }
+
+    /// The direction of the nearest segment of a strand that has one.
+    pub(crate) fn nearest_direction(&self, number: u32, pose: &impl Pose) -> DVec3 {
+        (1..=self.points.len() as u32)
+            .map_while(|step| {
+                let back = number.checked_sub(step).filter(|&n| self.joined(n, number));
+                let forth = number.checked_add(step).filter(|&n| self.joined(number, n));
+                (back.is_some() || forth.is_some()).then_some([back, forth])
+            })
+            .flatten()
+            .flatten()
+            .filter_map(|n| pose.cone(n))
+            .find(|c| c.ab != DVec3::ZERO)
+            .map_or(DVec3::Y, |c| c.ab.normalize_or(DVec3::Y))
     }
 
     /// Whether two numbers are segments of one strand, from the table of strands.
     fn joined(&self, low: u32, high: u32) -> bool {
-        self.cone(low).is_some() && self.cone(high).is_some() && self.strand_of(low) == self.strand_of(high)
+        self.ends(low).is_some() && self.ends(high).is_some() && self.strand_of(low) == self.strand_of(high)
     }
 
     fn strand_of(&self, number: u32) -> usize {
@@ -112,6 +110,7 @@ impl Fibres {
         self.points.capacity() * size_of::<Vec4>()
             + (self.firsts.capacity() + self.objects.capacity()) * size_of::<u32>()
             + self.borrowed.capacity() * size_of::<(u32, DVec3)>()
+            + self.tracks.bytes()
     }
 
     /// Numbers of all segments, those without radius included.
@@ -133,9 +132,8 @@ impl Fibres {
         }
     }
 
-    #[inline]
-    pub(crate) fn cone(&self, number: u32) -> Option<ConeSphere> {
-        self.ends(number).map(|(a, b)| ConeSphere::new(a, b))
+    pub(crate) fn tracks(&self) -> &Tracks<Vec3> {
+        &self.tracks
     }
 
     pub(crate) fn primitive(&self, number: u32) -> Primitive {
@@ -146,14 +144,12 @@ impl Fibres {
         Primitive::Segment { object: object as u32, strand: strand as u32 - first, segment }
     }
 
-    /// Unit vector from root to tip.
-    pub(crate) fn tangent(&self, number: u32, cone: &ConeSphere) -> DVec3 {
-        cone.ab.try_normalize().unwrap_or_else(|| {
-            match self.borrowed.binary_search_by_key(&number, |&(n, _)| n) {
-                Ok(place) => self.borrowed[place].1,
-                Err(_) => DVec3::Y,
-            }
-        })
+    /// What a segment without length was given.
+    pub(crate) fn borrowed(&self, number: u32) -> DVec3 {
+        match self.borrowed.binary_search_by_key(&number, |&(n, _)| n) {
+            Ok(place) => self.borrowed[place].1,
+            Err(_) => DVec3::Y,
+        }
     }
 
     /// The segment a ray leaves; none if there is no such segment.
@@ -166,96 +162,7 @@ impl Fibres {
         let first = *self.firsts.get(strand as usize)?;
         let end = *self.firsts.get(strand as usize + 1)?;
         let segment = first.checked_add(segment)?;
-        (segment < end).then_some(Departure { strand: first..end, segment })
-    }
-
-    /// Whether the fibre left is still around the ray at `t`: whether that is within the unbroken stretch
-    /// inside the strand that starts at the ray's origin. Entries in there are joints passed from within.
-    ///
-    /// The strand is taken wider by the rounding of the origin and of its points, or a ray that grazes a
-    /// straight strand would come out of one segment and into the next.
-    pub(crate) fn still_inside(&self, departure: &Departure, line: &Line, t: f64) -> bool {
-        let span = |number| {
-            let (a, b) = self.ends(number)?;
-            let size = a.xyz().abs().max(b.xyz().abs()).max_element();
-            let size = f64::from(size).max(line.origin.abs().max_element());
-            ConeSphere::new(a, b).inflated(2.0 * f64::from(f32::EPSILON) * size).span(line)
-        };
-        let mut out = span(departure.segment).map_or(0.0, |(_, exit)| exit.max(0.0));
-        loop {
-            if t <= out {
-                return true;
-            }
-            let before = out;
-            for forward in [true, false] {
-                out = self.extended(departure, line, out, forward, span);
-            }
-            if out <= before {
-                return false;
-            }
-        }
-    }
-
-    /// Follows the strand one way for as long as its segments take over before `out`.
-    fn extended(
-        &self,
-        departure: &Departure,
-        line: &Line,
-        mut out: f64,
-        forward: bool,
-        span: impl Fn(u32) -> Option<(f64, f64)>,
-    ) -> f64 {
-        let mut number = departure.segment;
-        loop {
-            let next = if forward { number.checked_add(1) } else { number.checked_sub(1) };
-            let Some(next) = next.filter(|n| departure.strand.contains(n)) else { return out };
-            let Some(cone) = self.cone(next) else { return out };
-            match span(next) {
-                Some((entry, exit)) if entry <= out && exit >= 0.0 => out = out.max(exit),
-                // A bend shorter than the strand is wide: the one after it may still take over.
-                _ if cone.distance(line.at(out)) <= cone.ra.max(cone.rb) => {}
-                _ => return out,
-            }
-            number = next;
-        }
-    }
-
-    /// Whether an entry into a segment is inside one of its neighbours, so not on the union's surface. From
-    /// outside such an entry comes after the neighbour's own; from inside it must not count.
-    #[inline]
-    pub(crate) fn is_inner(&self, number: u32, cone: &ConeSphere, at: DVec3) -> bool {
-        let near = cone.ra.max(cone.rb) * 2.0;
-        [true, false].into_iter().any(|forward| {
-            let mut here = number;
-            for _ in 0..NEIGHBOURS {
-                let next = if forward { here.checked_add(1) } else { here.checked_sub(1) };
-                let Some((next, (a, b))) = next.and_then(|n| Some((n, self.ends(n)?))) else {
-                    return false;
-                };
-                let joint = if forward { a } else { b };
-                if (joint.xyz().as_dvec3() - at).length_squared() > near * near {
-                    return false;
-                }
-                let neighbour = ConeSphere::new(a, b);
-                if neighbour.distance(at) < -ON_SURFACE * neighbour.ra.max(neighbour.rb) {
-                    return true;
-                }
-                here = next;
-            }
-            false
-        })
-    }
-}
-
-impl Departure {
-    #[inline]
-    pub(crate) fn is_segment(&self, number: u32) -> bool {
-        self.segment == number
-    }
-
-    #[inline]
-    pub(crate) fn is_strand_of(&self, number: u32) -> bool {
-        self.strand.contains(&number)
+        (segment < end).then(|| Departure::new(first..end, segment))
     }
 }
 

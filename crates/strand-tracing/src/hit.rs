@@ -11,6 +11,9 @@ pub struct Ray {
     pub direction: Vec3,
     /// Only hits with `0 < t <= t_max` count; may be infinite.
     pub t_max: f32,
+    /// When in the shutter, 0 at its opening and 1 at its closing. Where anything moves, a ray of another
+    /// time (or none: NaN) hits nothing; where nothing does, there is no time and this is not looked at.
+    pub time: f32,
 }
 
 /// One traced primitive, by the place it had in the input.

@@ -10,8 +10,11 @@ pub struct Strands<'a> {
     pub offsets: &'a [u32],
     /// All points, strand by strand, root first.
     pub positions: &'a [Vec3],
-    /// How thick the strands are.
+    /// How thick the strands are, at all times.
     pub radii: Radii<'a>,
+    /// The points at further keys, evenly spaced over the shutter: with `n` of them, `positions` are those
+    /// at time 0 and `moved[i]` those at time `(i + 1) / n`. Linear in between. Empty where nothing moves.
+    pub moved: &'a [&'a [Vec3]],
 }
 
 /// Radii (not diameters), in world units, 0 or more.
@@ -30,6 +33,8 @@ pub struct Triangles<'a> {
     pub positions: &'a [Vec3],
     /// Three vertices each.
     pub indices: &'a [[u32; 3]],
+    /// The vertices at further keys; see [`Strands::moved`].
+    pub moved: &'a [&'a [Vec3]],
 }
 
 /// How a tracer is built.

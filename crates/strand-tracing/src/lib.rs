@@ -13,15 +13,24 @@
 //! there is no epsilon in world units; a curl that comes back to itself is hit. A triangle left is not hit
 //! again, nor is its neighbour where only the rounding of the origin puts the ray behind it.
 //!
+//! # Motion
+//!
+//! Points and vertices may be given at several keys of a shutter ([`Strands::moved`], [`Triangles::moved`]),
+//! and every ray has a [time](Ray::time) in it. A ray sees the scene as a still one of the positions at its
+//! time, each interpolated between two keys and rounded once: hit for hit, bit for bit. A ray that leaves a
+//! hit has the hit's time.
+//!
 //! ```
 //! use glam::{Vec3, vec3};
 //! use strand_tracing::{BuildOptions, HitKind, Radii, Ray, Strands, Tracer};
 //!
 //! let positions = [vec3(-1.0, 0.0, 0.0), vec3(0.0, 0.0, 0.0), vec3(1.0, 0.0, 0.0)];
-//! let hair = Strands { offsets: &[0, 3], positions: &positions, radii: Radii::Constant(0.01) };
+//! let radii = Radii::Constant(0.01);
+//! let hair = Strands { offsets: &[0, 3], positions: &positions, radii, moved: &[] };
 //! let tracer = Tracer::build(&[hair], &[], &BuildOptions::default())?;
 //!
-//! let ray = Ray { origin: vec3(0.5, 0.005, 2.0), direction: Vec3::NEG_Z, t_max: f32::INFINITY };
+//! let origin = vec3(0.5, 0.005, 2.0);
+//! let ray = Ray { origin, direction: Vec3::NEG_Z, t_max: f32::INFINITY, time: 0.0 };
 //! let hit = tracer.closest(&ray, None).ok_or("missed")?;
 //! let HitKind::Segment { h, .. } = hit.kind else { return Err("not hair".into()) };
 //! assert!((h.abs() - 0.5).abs() < 1e-4);
@@ -38,11 +47,17 @@ mod error;
 mod fibres;
 mod hit;
 mod input;
+mod inside;
+mod keys;
 mod line;
 mod meshes;
 mod pack;
 mod pieces;
+mod pose;
+mod query;
+mod search;
 mod tracer;
+mod tracks;
 mod triangle;
 mod wide_tree;
 

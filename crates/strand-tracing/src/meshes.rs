@@ -2,6 +2,8 @@
 
 use glam::Vec3;
 
+use crate::keys;
+use crate::tracks::Tracks;
 use crate::{Primitive, TracingError, Triangles};
 
 /// All triangles of all objects.
@@ -10,6 +12,8 @@ pub(crate) struct Meshes {
     vertices: Vec<[Vec3; 3]>,
     /// First triangle of every object, then the number of triangles.
     objects: Vec<u32>,
+    /// The vertices at further keys.
+    tracks: Tracks<[Vec3; 3]>,
 }
 
 impl Meshes {
@@ -20,9 +24,14 @@ impl Meshes {
         }
         meshes.vertices.reserve_exact(triangles.iter().map(|t| t.indices.len()).sum());
         for (object, triangles) in triangles.iter().enumerate() {
-            meshes.objects.push(meshes.vertices.len() as u32);
+            keys::check_vertices(object, triangles)?;
+            let first = meshes.vertices.len() as u32;
+            meshes.objects.push(first);
             for (triangle, &corners) in triangles.indices.iter().enumerate() {
                 meshes.vertices.push(resolve(object, triangle, triangles.positions, corners)?);
+            }
+            if !triangles.indices.is_empty() && keys::any_moves(triangles.positions, triangles.moved) {
+                meshes.tracks.push(first, resolved_keys(object, triangles)?);
             }
         }
         meshes.objects.push(meshes.vertices.len() as u32);
@@ -34,7 +43,13 @@ impl Meshes {
     }
 
     pub(crate) fn bytes(&self) -> usize {
-        self.vertices.capacity() * size_of::<[Vec3; 3]>() + self.objects.capacity() * size_of::<u32>()
+        self.vertices.capacity() * size_of::<[Vec3; 3]>()
+            + self.objects.capacity() * size_of::<u32>()
+            + self.tracks.bytes()
+    }
+
+    pub(crate) fn tracks(&self) -> &Tracks<[Vec3; 3]> {
+        &self.tracks
     }
 
     pub(crate) fn primitive(&self, number: u32) -> Primitive {
@@ -48,6 +63,21 @@ impl Meshes {
         let number = self.objects.get(object as usize)?.checked_add(triangle)?;
         (number < *self.objects.get(object as usize + 1)?).then_some(number)
     }
+}
+
+/// The triangles' vertices at every key but the first.
+fn resolved_keys(object: usize, triangles: &Triangles) -> Result<Vec<Vec<[Vec3; 3]>>, TracingError> {
+    let at_key = |(key, positions): (usize, &&[Vec3])| {
+        let corners = triangles.indices.iter().enumerate();
+        let vertices = corners.map(|(triangle, &corners)| resolve(object, triangle, positions, corners));
+        vertices.collect::<Result<Vec<_>, _>>().map_err(|error| match error {
+            TracingError::Vertex { object, vertex, found } => {
+                TracingError::MovedVertex { object, key, vertex, found }
+            }
+            other => other,
+        })
+    };
+    (1..).zip(triangles.moved).map(at_key).collect()
 }
 
 fn resolve(

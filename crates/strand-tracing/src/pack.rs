@@ -187,7 +187,7 @@ mod tests {
             let direction = (axis + slope * ten(parallel)).normalize_or(Vec3::Y);
             let off = across.cross(direction).normalize_or_zero() * (radius * (1.0 + (thin - 1.0) * u));
             let origin = a.lerp(b, u) + off * (1.0 + rim) - direction * (scale * ten(back));
-            let ray = Ray { origin, direction, t_max: f32::INFINITY };
+            let ray = Ray { origin, direction, t_max: f32::INFINITY, time: 0.0 };
             let mut packs = Packs::default();
             packs.push([piece; 3].iter());
             let near = Sight::new(&ray, packs.bounds()).near(packs.get(0).unwrap());
@@ -202,7 +202,8 @@ mod tests {
         let mut packs = Packs::default();
         packs.push([piece].iter());
         let near = |x: f32| {
-            let ray = Ray { origin: vec3(x, -x, 9.0), direction: Vec3::NEG_Z, t_max: f32::INFINITY };
+            let ray =
+                Ray { origin: vec3(x, -x, 9.0), direction: Vec3::NEG_Z, t_max: f32::INFINITY, time: 0.0 };
             Sight::new(&ray, packs.bounds()).near(packs.get(0).unwrap())
         };
         assert_eq!([near(0.0), near(0.007), near(0.0072), near(0.5)], [1, 1, 0, 0]);
@@ -214,7 +215,7 @@ mod tests {
         let piece = Piece { number: 7, a: Vec3::splat(1e30).extend(1.0), b: Vec3::splat(-1e30).extend(1.0) };
         let mut packs = Packs::default();
         packs.push([piece; 4].iter());
-        let ray = Ray { origin: Vec3::ONE, direction: Vec3::X, t_max: f32::INFINITY };
+        let ray = Ray { origin: Vec3::ONE, direction: Vec3::X, t_max: f32::INFINITY, time: 0.0 };
         assert_eq!(Sight::new(&ray, packs.bounds()).near(packs.get(0).unwrap()), 0b1111);
     }
 }

@@ -10,7 +10,7 @@ use strand_tracing::{
 };
 
 fn build(offsets: &[u32], positions: &[Vec3], radii: Radii) -> Result<Tracer, TracingError> {
-    Tracer::build(&[Strands { offsets, positions, radii }], &[], &BuildOptions::default())
+    Tracer::build(&[Strands { offsets, positions, radii, moved: &[] }], &[], &BuildOptions::default())
 }
 
 #[test]
@@ -21,7 +21,7 @@ fn an_empty_scene_is_fine() {
         build(&[0], &[], Radii::Constant(1.0)).unwrap(),
         build(&[0, 0, 1, 1], &[Vec3::ONE], Radii::Constant(1.0)).unwrap(),
     ] {
-        let ray = Ray { origin: Vec3::ZERO, direction: Vec3::X, t_max: f32::INFINITY };
+        let ray = Ray { origin: Vec3::ZERO, direction: Vec3::X, t_max: f32::INFINITY, time: 0.0 };
         assert_eq!(tracer.closest(&ray, None), None);
         assert!(!tracer.occluded(&ray, None));
         assert_eq!(tracer.bounds(), (Vec3::ZERO, Vec3::ZERO));
@@ -51,7 +51,7 @@ fn wrong_input_is_named() {
     assert!(error.to_string().starts_with("strands 0: point 1 is"), "{error}");
     let mesh = |positions: &[Vec3], index| {
         let indices = [[0, 1, index]];
-        let mesh = Triangles { positions, indices: &indices };
+        let mesh = Triangles { positions, indices: &indices, moved: &[] };
         Tracer::build(&[], &[mesh], &BuildOptions::default()).unwrap_err()
     };
     assert!(matches!(mesh(&points, 3), TracingError::Index { found: 3, vertices: 3, .. }));
@@ -60,7 +60,7 @@ fn wrong_input_is_named() {
 
 #[test]
 fn degenerate_segments() {
-    let ray = Ray { origin: vec3(0.0, 0.0, 5.0), direction: Vec3::NEG_Z, t_max: f32::INFINITY };
+    let ray = Ray { origin: vec3(0.0, 0.0, 5.0), direction: Vec3::NEG_Z, t_max: f32::INFINITY, time: 0.0 };
     // No length: a sphere; its direction is its strand's.
     let points = [Vec3::ZERO, Vec3::ZERO, Vec3::ZERO, vec3(2.0, 0.0, 0.0)];
     let sphere = build(&[0, 3, 4], &points, Radii::Constant(1.0)).unwrap();
@@ -90,15 +90,15 @@ fn ids_are_the_input_s_places() {
     let (low, high) = ([points(0.0), points(1.0)].concat(), points(2.0));
     let radii = Radii::Constant(0.1);
     let strands = [
-        Strands { offsets: &[0, 4, 4, 8], positions: &low, radii },
-        Strands { offsets: &[0], positions: &[], radii },
-        Strands { offsets: &[0, 4], positions: &high, radii },
+        Strands { offsets: &[0, 4, 4, 8], positions: &low, radii, moved: &[] },
+        Strands { offsets: &[0], positions: &[], radii, moved: &[] },
+        Strands { offsets: &[0, 4], positions: &high, radii, moved: &[] },
     ];
     let tracer = Tracer::build(&strands, &[], &BuildOptions::default()).unwrap();
     for (y, object, strand) in [(0.0, 0, 0), (1.0, 0, 2), (2.0, 2, 0)] {
         for segment in 0..3 {
             let origin = vec3(segment as f32 + 0.5, y, 5.0);
-            let ray = Ray { origin, direction: Vec3::NEG_Z, t_max: 9.0 };
+            let ray = Ray { origin, direction: Vec3::NEG_Z, t_max: 9.0, time: 0.0 };
             let hit = tracer.closest(&ray, None).unwrap();
             assert_eq!(hit.primitive, Primitive::Segment { object, strand, segment });
             assert!(!tracer.occluded(&ray, Some(hit.primitive)));
@@ -120,7 +120,7 @@ fn building_twice_gives_the_same_and_the_first_of_twins_is_hit() {
     for _ in 0..2000 {
         let origin = random.cube() * 3.0;
         let direction = (random.cube() * 0.5 - origin).normalize();
-        let ray = Ray { origin, direction, t_max: f32::INFINITY };
+        let ray = Ray { origin, direction, t_max: f32::INFINITY, time: 0.0 };
         let hit = a.closest(&ray, None);
         assert_eq!(hit, b.closest(&ray, None));
         if let Some(Primitive::Segment { strand, .. }) = hit.map(|h| h.primitive) {
@@ -160,16 +160,16 @@ proptest! {
         offsets.insert(0, 0);
         offsets.push(positions_count);
         let radii: Vec<f32> = radii.into_iter().chain([0.1; 8]).take(positions.len()).collect();
-        let strands = Strands { offsets: &offsets, positions: &positions, radii: Radii::PerVertex(&radii) };
+        let strands = Strands { offsets: &offsets, positions: &positions, radii: Radii::PerVertex(&radii), moved: &[] };
         let indices: Vec<_> = indices.into_iter().filter(|t| t.iter().all(|i| *i < positions_count)).collect();
-        let triangles = Triangles { positions: &positions, indices: &indices };
+        let triangles = Triangles { positions: &positions, indices: &indices, moved: &[] };
         let Ok(tracer) = Tracer::build(&[strands], &[triangles], &BuildOptions::default()) else {
             return Ok(());
         };
         for (origin, direction, t_max) in rays {
             let mut leaving = None;
             for direction in [direction, direction.normalize_or(Vec3::X)] {
-                let ray = Ray { origin, direction, t_max };
+                let ray = Ray { origin, direction, t_max, time: 0.0 };
                 let hit = tracer.closest(&ray, leaving);
                 prop_assert_eq!(hit.is_some(), tracer.occluded(&ray, leaving));
                 if let Some(hit) = hit {

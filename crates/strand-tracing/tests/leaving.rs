@@ -20,7 +20,8 @@ fn touch(random: &mut Random, hair: &Hair, tracer: &Tracer, back: f32) -> Option
     let low = ((random.next() * last as f32) as usize).min(last - 1);
     let target = hair.positions[low].lerp(hair.positions[low + 1], random.next());
     let direction = random.direction();
-    tracer.closest(&Ray { origin: target - direction * back, direction, t_max: f32::INFINITY }, None)
+    tracer
+        .closest(&Ray { origin: target - direction * back, direction, t_max: f32::INFINITY, time: 0.0 }, None)
 }
 
 /// A straight strand is convex: nothing that leaves it comes back, inwards or outwards, however thin it
@@ -44,7 +45,7 @@ fn straight_strands_do_not_stop_their_own_light() {
                     touched += 1;
                     for _ in 0..10 {
                         let direction = random.direction();
-                        let onward = Ray { origin: hit.position, direction, t_max: f32::INFINITY };
+                        let onward = Ray { origin: hit.position, direction, t_max: f32::INFINITY, time: 0.0 };
                         let again = tracer.closest(&onward, Some(hit.primitive));
                         assert!(again.is_none(), "radius {radius} at {far}: {again:?} from {hit:?}");
                         assert!(!tracer.occluded(&onward, Some(hit.primitive)));
@@ -71,7 +72,7 @@ fn rays_almost_along_a_straight_strand_leave_it() {
             let slope = 10.0_f32.powf(-6.0 * random.next());
             let along = if random.next() < 0.5 { way } else { -way };
             let direction = (along + random.direction() * slope).normalize();
-            let onward = Ray { origin: hit.position, direction, t_max: f32::INFINITY };
+            let onward = Ray { origin: hit.position, direction, t_max: f32::INFINITY, time: 0.0 };
             assert_eq!(tracer.closest(&onward, Some(hit.primitive)), None, "from {hit:?}");
         }
     }
@@ -89,7 +90,8 @@ fn bent_strands_agree_with_brute_force() {
         for _ in 0..2500 {
             let Some(hit) = touch(&mut random, &hair, &tracer, 3.0) else { continue };
             let from = segment(hit.primitive);
-            let ray = Ray { origin: hit.position, direction: random.direction(), t_max: f32::INFINITY };
+            let ray =
+                Ray { origin: hit.position, direction: random.direction(), t_max: f32::INFINITY, time: 0.0 };
             let spans: Vec<(u32, u32, Span)> =
                 all.iter().filter_map(|(a, b, s)| Some((*a, *b, s.span(&ray)?))).collect();
             let Some(out) = way_out(&spans, from) else { continue };
@@ -151,7 +153,7 @@ fn a_curl_that_comes_back_is_hit() {
         (vec3(angle.cos(), 0.1 * angle, angle.sin()), 0.05)
     }));
     let tracer = hair.tracer();
-    let down = Ray { origin: vec3(1.0, 10.0, 0.0), direction: Vec3::NEG_Y, t_max: f32::INFINITY };
+    let down = Ray { origin: vec3(1.0, 10.0, 0.0), direction: Vec3::NEG_Y, t_max: f32::INFINITY, time: 0.0 };
     let first = tracer.closest(&down, None).unwrap();
     // Through the first coil (it is not in its own way) on to the next, a turn below.
     let onward = Ray { origin: first.position, ..down };
@@ -167,13 +169,15 @@ fn across_a_bend_the_other_arm_is_hit() {
     let mut hair = Hair::new();
     hair.push([(vec3(0.0, 1.0, 0.0), 0.05), (Vec3::ZERO, 0.05), (vec3(1.0, 0.0, 0.0), 0.05)]);
     let tracer = hair.tracer();
-    let ray = Ray { origin: vec3(2.0, 0.5, 0.0), direction: Vec3::NEG_X, t_max: f32::INFINITY };
+    let ray = Ray { origin: vec3(2.0, 0.5, 0.0), direction: Vec3::NEG_X, t_max: f32::INFINITY, time: 0.0 };
     let hit = tracer.closest(&ray, None).unwrap();
-    let down = Ray { origin: hit.position, direction: vec3(1.0, -1.0, 0.0).normalize(), t_max: 9.0 };
+    let down =
+        Ray { origin: hit.position, direction: vec3(1.0, -1.0, 0.0).normalize(), t_max: 9.0, time: 0.0 };
     let arm = tracer.closest(&down, Some(hit.primitive)).unwrap();
     assert_eq!(segment(arm.primitive), (0, 1));
     // Straight down inside the arm, through the joint and out of the bottom: still the same fibre.
-    let through = Ray { origin: hit.position, direction: vec3(-0.1, -1.0, 0.0).normalize(), t_max: 9.0 };
+    let through =
+        Ray { origin: hit.position, direction: vec3(-0.1, -1.0, 0.0).normalize(), t_max: 9.0, time: 0.0 };
     assert_eq!(tracer.closest(&through, Some(hit.primitive)), None);
 }
 
@@ -183,7 +187,7 @@ fn from_inside_a_fibre_its_joints_are_not_hit() {
     hair.push([(Vec3::ZERO, 0.1), (vec3(1.0, 0.0, 0.0), 0.1), (vec3(2.0, 0.3, 0.0), 0.08)]);
     hair.push([(vec3(3.0, -1.0, 0.0), 0.1), (vec3(3.0, 1.0, 0.0), 0.1)]);
     let tracer = hair.tracer();
-    let ray = Ray { origin: vec3(0.5, 0.0, 0.01), direction: Vec3::X, t_max: f32::INFINITY };
+    let ray = Ray { origin: vec3(0.5, 0.0, 0.01), direction: Vec3::X, t_max: f32::INFINITY, time: 0.0 };
     let hit = tracer.closest(&ray, None).unwrap();
     assert_eq!(segment(hit.primitive), (1, 0));
     let short = Ray { t_max: 2.0, ..ray };
@@ -199,8 +203,12 @@ fn a_primitive_that_is_not_there_changes_nothing() {
     for object in all {
         for strand in all {
             for segment in [u32::MAX, 1000] {
-                let ray =
-                    Ray { origin: Vec3::splat(3.0), direction: Vec3::splat(-1.0).normalize(), t_max: 9.0 };
+                let ray = Ray {
+                    origin: Vec3::splat(3.0),
+                    direction: Vec3::splat(-1.0).normalize(),
+                    t_max: 9.0,
+                    time: 0.0,
+                };
                 let wrong = Primitive::Segment { object, strand, segment };
                 assert_eq!(tracer.closest(&ray, Some(wrong)), tracer.closest(&ray, None));
                 let wrong = Primitive::Triangle { object, triangle: segment };

@@ -73,7 +73,7 @@ fn aimed(random: &mut Random, hair: &Hair, scale: f32, thickness: f32) -> Ray {
     } else {
         (target - origin).as_dvec3().normalize_or(direction.as_dvec3()).as_vec3()
     };
-    Ray { origin, direction, t_max: f32::INFINITY }
+    Ray { origin, direction, t_max: f32::INFINITY, time: 0.0 }
 }
 
 fn compare(hair: &Hair, ray: &Ray, hit: &Hit, swept: &Swept, span: &Span) {
@@ -118,7 +118,7 @@ fn joints_do_not_leak() {
                     let inside = random.direction() * (hair.radii[joint] * 0.999 * random.next().cbrt());
                     let direction = random.direction();
                     let origin = hair.positions[joint] + inside - direction * 3.0;
-                    let ray = Ray { origin, direction, t_max: 3.0 + hair.radii[joint] };
+                    let ray = Ray { origin, direction, t_max: 3.0 + hair.radii[joint], time: 0.0 };
                     assert!(tracer.occluded(&ray, None));
                     assert!(tracer.closest(&ray, None).is_some());
                 }

@@ -39,7 +39,7 @@ fn sphere(n: u32, scale: f32, centre: Vec3) -> (Vec<Vec3>, Vec<[u32; 3]>) {
 }
 
 fn tracer(positions: &[Vec3], indices: &[[u32; 3]]) -> Tracer {
-    Tracer::build(&[], &[Triangles { positions, indices }], &BuildOptions::default()).unwrap()
+    Tracer::build(&[], &[Triangles { positions, indices, moved: &[] }], &BuildOptions::default()).unwrap()
 }
 
 #[test]
@@ -57,7 +57,7 @@ fn a_closed_mesh_does_not_leak_at_edges_and_vertices() {
                     let target = corners[edge].lerp(corners[(edge + 1) % 3], share);
                     let origin = centre + random.cube() * scale * 0.3;
                     let direction = (target - origin).normalize();
-                    let ray = Ray { origin, direction, t_max: f32::INFINITY };
+                    let ray = Ray { origin, direction, t_max: f32::INFINITY, time: 0.0 };
                     let hit = tracer.closest(&ray, None).expect("a leak");
                     assert!(tracer.occluded(&ray, None));
                     let onward = Ray { origin: hit.position, ..ray };
@@ -77,7 +77,7 @@ fn agrees_with_brute_force() {
     let tracer = tracer(&positions, &indices);
     let mut hits = 0;
     for _ in 0..5000 {
-        let ray = Ray { origin: random.cube() * 2.0, direction: random.direction(), t_max: 3.0 };
+        let ray = Ray { origin: random.cube() * 2.0, direction: random.direction(), t_max: 3.0, time: 0.0 };
         let mut expected: Option<(f64, u32)> = None;
         for (number, corners) in indices.iter().enumerate() {
             let corners = corners.map(|i| positions[i as usize].as_dvec3());
@@ -124,7 +124,7 @@ fn rays_along_axes_meet_flat_boxes() {
     let tracer = tracer(&positions, &[[0, 1, 2], [0, 2, 3]]);
     for (x, y) in [(0.0, 0.0), (0.5, 0.5), (1.0, 1.0), (0.0, 0.3), (1.0, 0.5), (0.2, 1.0), (0.7, 0.0)] {
         for way in [Vec3::Z, Vec3::NEG_Z] {
-            let ray = Ray { origin: vec3(x, y, 0.0) - way * 2.0, direction: way, t_max: 2.0 };
+            let ray = Ray { origin: vec3(x, y, 0.0) - way * 2.0, direction: way, t_max: 2.0, time: 0.0 };
             let hit = tracer.closest(&ray, None).expect("a crossing");
             assert_eq!(hit.t, 2.0);
             let onward = Ray { origin: hit.position, ..ray };
@@ -132,7 +132,7 @@ fn rays_along_axes_meet_flat_boxes() {
         }
     }
     // In its plane a triangle has no width.
-    let flat = Ray { origin: vec3(-1.0, 0.5, 0.0), direction: Vec3::X, t_max: 9.0 };
+    let flat = Ray { origin: vec3(-1.0, 0.5, 0.0), direction: Vec3::X, t_max: 9.0, time: 0.0 };
     assert!(tracer.closest(&flat, None).is_none());
 }
 
@@ -140,11 +140,11 @@ fn rays_along_axes_meet_flat_boxes() {
 fn hair_and_skin_are_traced_together() {
     let skin = [vec3(-1.0, 0.0, -1.0), vec3(1.0, 0.0, -1.0), vec3(0.0, 0.0, 1.0)];
     let hair = [Vec3::ZERO, Vec3::Y];
-    let strands = Strands { offsets: &[0, 2], positions: &hair, radii: Radii::Constant(0.1) };
-    let triangles = Triangles { positions: &skin, indices: &[[0, 1, 2]] };
-    let empty = Triangles { positions: &[], indices: &[] };
+    let strands = Strands { offsets: &[0, 2], positions: &hair, radii: Radii::Constant(0.1), moved: &[] };
+    let triangles = Triangles { positions: &skin, indices: &[[0, 1, 2]], moved: &[] };
+    let empty = Triangles { positions: &[], indices: &[], moved: &[] };
     let tracer = Tracer::build(&[strands], &[empty, triangles], &BuildOptions::default()).unwrap();
-    let down = |x| Ray { origin: vec3(x, 5.0, 0.0), direction: Vec3::NEG_Y, t_max: 9.0 };
+    let down = |x| Ray { origin: vec3(x, 5.0, 0.0), direction: Vec3::NEG_Y, t_max: 9.0, time: 0.0 };
     let root = tracer.closest(&down(0.05), None).unwrap();
     assert_eq!(root.primitive, Primitive::Segment { object: 0, strand: 0, segment: 0 });
     // Through the fibre to the skin it grows from.
@@ -172,7 +172,8 @@ fn rays_that_leave_near_edges_do_not_meet_the_neighbours() {
                     let target = corners[edge].lerp(corners[(edge + 1) % 3], share);
                     let origin = centre + (target - centre) * 3.0;
                     let direction = (target - origin).normalize();
-                    let Some(hit) = tracer.closest(&Ray { origin, direction, t_max: 1e9 }, None) else {
+                    let Some(hit) = tracer.closest(&Ray { origin, direction, t_max: 1e9, time: 0.0 }, None)
+                    else {
                         continue;
                     };
                     let HitKind::Triangle { normal, .. } = hit.kind else { panic!() };
@@ -184,12 +185,14 @@ fn rays_that_leave_near_edges_do_not_meet_the_neighbours() {
                             origin: hit.position,
                             direction: (along + out * (slope * side)).normalize(),
                             t_max: f32::INFINITY,
+                            time: 0.0,
                         };
                         let again = tracer.closest(&leave(1.0), Some(hit.primitive));
                         assert_eq!(again, None, "slope {slope} from {hit:?}");
                         assert!(!tracer.occluded(&leave(1.0), Some(hit.primitive)));
                     }
-                    let inwards = Ray { origin: hit.position, direction: -out, t_max: f32::INFINITY };
+                    let inwards =
+                        Ray { origin: hit.position, direction: -out, t_max: f32::INFINITY, time: 0.0 };
                     assert!(tracer.occluded(&inwards, Some(hit.primitive)));
                 }
             }
@@ -204,7 +207,8 @@ fn a_neighbour_in_the_way_is_met() {
     let tracer = tracer(&corners, &[[0, 1, 2], [0, 2, 3]]);
     for x in [0.3, 1e-3, 1e-5] {
         let origin = vec3(x, 0.3, 0.0);
-        let ray = Ray { origin, direction: vec3(-1.0, 0.0, 0.5).normalize(), t_max: f32::INFINITY };
+        let ray =
+            Ray { origin, direction: vec3(-1.0, 0.0, 0.5).normalize(), t_max: f32::INFINITY, time: 0.0 };
         let hit = tracer.closest(&ray, Some(Primitive::Triangle { object: 0, triangle: 0 })).unwrap();
         assert_eq!(hit.primitive, Primitive::Triangle { object: 0, triangle: 1 });
     }

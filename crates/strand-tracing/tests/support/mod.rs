@@ -50,7 +50,12 @@ impl Hair {
     }
 
     pub fn strands(&self) -> Strands<'_> {
-        Strands { offsets: &self.offsets, positions: &self.positions, radii: Radii::PerVertex(&self.radii) }
+        Strands {
+            offsets: &self.offsets,
+            positions: &self.positions,
+            radii: Radii::PerVertex(&self.radii),
+            moved: &[],
+        }
     }
 
     pub fn tracer(&self) -> Tracer {
