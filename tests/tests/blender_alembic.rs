@@ -11,7 +11,9 @@ use std::process::Command;
 use end_to_end_tests::{say_skipped, workspace};
 use glam::Vec3;
 use groom::{Attribute, Domain, Groom, Values, names};
-use groom_formats::{Dialect, Frame, ReadOptions, WriteOptions, read_frames, write, write_animation};
+use groom_formats::{
+    Dialect, Frame, MotionOptions, ReadOptions, WriteOptions, read_frames, write, write_animation,
+};
 use serde_json::{Value, json};
 
 fn blender() -> Option<PathBuf> {
@@ -59,7 +61,7 @@ fn numbers(groom: &Groom, frames: &[Frame]) -> Value {
 }
 
 fn still(groom: &Groom) -> Vec<Frame> {
-    vec![Frame { time: 1.0, positions: groom.positions().to_vec(), velocities: None }]
+    vec![Frame { time: 1.0, positions: groom.positions().to_vec(), ..Frame::default() }]
 }
 
 #[test]
@@ -90,12 +92,13 @@ fn blender_plays_ten_frames() {
     let frames: Vec<Frame> = (1..=10)
         .map(|time| {
             let moved = groom.positions().iter().map(|&p| p + Vec3::new(0.0, 0.5 * time as f32, p.x));
-            Frame { time: time.into(), positions: moved.collect(), velocities: None }
+            Frame { time: time.into(), positions: moved.collect(), ..Frame::default() }
         })
         .collect();
     let abc = folder.path().join("moving.abc");
     let mut given = frames.clone().into_iter().map(Ok);
-    write_animation(&groom, &mut given, 24.0, &abc, &WriteOptions::default()).unwrap();
+    write_animation(&groom, &mut given, &MotionOptions::at_rate(24.0), &abc, &WriteOptions::default())
+        .unwrap();
     script(&python, "check", &abc, &numbers(&groom, &frames));
 }
 

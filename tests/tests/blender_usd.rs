@@ -7,7 +7,7 @@ use std::process::Command;
 
 use end_to_end_tests::{samples_dir, say_skipped, workspace};
 use groom::{Groom, UpAxis};
-use groom_formats::{Frame, ReadOptions, WriteOptions};
+use groom_formats::{Frame, MotionOptions, ReadOptions, WriteOptions};
 use serde_json::{Value, json};
 
 fn blender() -> Option<PathBuf> {
@@ -76,8 +76,15 @@ fn blender_sees_motion() {
     for ending in ["usda", "usdc"] {
         let path = folder.path().join(format!("moving-{ending}.{ending}"));
         let mut frames = (1..=4)
-            .map(|frame| Ok(Frame { time: f64::from(frame), positions: moved(frame), velocities: None }));
-        groom_formats::write_animation(&groom, &mut frames, 24.0, &path, &WriteOptions::default()).unwrap();
+            .map(|frame| Ok(Frame { time: f64::from(frame), positions: moved(frame), ..Frame::default() }));
+        groom_formats::write_animation(
+            &groom,
+            &mut frames,
+            &MotionOptions::at_rate(24.0),
+            &path,
+            &WriteOptions::default(),
+        )
+        .unwrap();
         let mut answer = expected(&groom);
         answer["positions"] = json!(numbers(&moved(1)));
         answer["frames"] = json!({ "1": numbers(&moved(1)), "3": numbers(&moved(3)) });

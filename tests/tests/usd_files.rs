@@ -7,7 +7,7 @@ use std::process::Command;
 
 use end_to_end_tests::{validators, workspace};
 use groom::{Attribute, Domain, Groom, UpAxis, Values, names};
-use groom_formats::{Dialect, Frame, Look, WriteOptions, write, write_animation};
+use groom_formats::{Dialect, Frame, Look, MotionOptions, WriteOptions, write, write_animation};
 use serde_json::{Value, json};
 
 const ENDINGS: [&str; 3] = ["usda", "usdc", "usdz"];
@@ -76,6 +76,7 @@ fn frames(groom: &Groom) -> Vec<Frame> {
         time: 1001.0 + 0.5 * f as f64,
         positions: groom.positions().iter().map(|&p| p * (1.0 + 0.01 * f as f32)).collect(),
         velocities: Some(groom.positions().iter().map(|&p| p * (0.01 * 2.0 * RATE as f32)).collect()),
+        accelerations: None,
     };
     (0..FRAMES).map(frame).collect()
 }
@@ -92,7 +93,14 @@ fn written(folder: &Path) -> Vec<Vec<PathBuf>> {
         for ending in ENDINGS {
             write(&groom, &path("still", ending), &options).unwrap();
             let mut frames = frames(&groom).into_iter().map(Ok);
-            write_animation(&groom, &mut frames, RATE, &path("moving", ending), &options).unwrap();
+            write_animation(
+                &groom,
+                &mut frames,
+                &MotionOptions::at_rate(RATE),
+                &path("moving", ending),
+                &options,
+            )
+            .unwrap();
         }
     }
     groups
@@ -137,7 +145,14 @@ fn usd_core_finds_the_grooms_own_bits_still_and_moving() {
     let (still, moving) = (folder.path().join("still.usdc"), folder.path().join("moving.usdc"));
     write(&groom, &still, &options).unwrap();
     let frames = frames(&groom);
-    write_animation(&groom, &mut frames.clone().into_iter().map(Ok), RATE, &moving, &options).unwrap();
+    write_animation(
+        &groom,
+        &mut frames.clone().into_iter().map(Ok),
+        &MotionOptions::at_rate(RATE),
+        &moving,
+        &options,
+    )
+    .unwrap();
     let [still, moving] = arrays(&python, &[still, moving]).try_into().unwrap();
 
     let triples = |values: &[_]| -> String {

@@ -12,7 +12,8 @@ use std::time::Instant;
 use glam::Vec3;
 use groom::{Attribute, Domain, Groom, Values, names};
 use groom_formats::{
-    Format, Frame, ReadOptions, WriteOptions, read, read_from, write, write_animation, write_seekable,
+    Format, Frame, MotionOptions, ReadOptions, WriteOptions, read, read_from, write, write_animation,
+    write_seekable,
 };
 
 const STRANDS: usize = 50_000;
@@ -91,9 +92,9 @@ fn animate(groom: &Groom, path: &Path) -> Result<()> {
     let mut frames = (0..FRAMES).map(|frame| {
         let positions = groom.positions().iter().map(|&p| p + Vec3::Z * frame as f32).collect();
         let velocities = Some(groom.positions().iter().map(|&p| p * (frame + 1) as f32).collect());
-        Ok(Frame { time: frame as f64, positions, velocities })
+        Ok(Frame { time: frame as f64, positions, velocities, ..Frame::default() })
     });
-    write_animation(groom, &mut frames, 24.0, path, &WriteOptions::default())?;
+    write_animation(groom, &mut frames, &MotionOptions::at_rate(24.0), path, &WriteOptions::default())?;
     Ok(())
 }
 

@@ -11,7 +11,7 @@ use std::time::Instant;
 
 use glam::{Vec2, Vec3};
 use groom::{Attribute, Domain, Groom, Values, names};
-use groom_formats::{Frame, WriteOptions, write, write_animation};
+use groom_formats::{Frame, MotionOptions, WriteOptions, write, write_animation};
 
 const STRANDS: usize = 50_000;
 const POINTS: usize = 25;
@@ -69,9 +69,10 @@ fn measured(groom: &Groom, folder: &Path) -> Result<Vec<(&'static str, Figures)>
             time: f as f64,
             positions: at(groom, f),
             velocities: Some(vec![Vec3::X * RATE as f32; groom.point_count()]),
+            accelerations: None,
         };
         let mut frames = (0..FRAMES).map(|f| Ok(frame(f)));
-        Ok(write_animation(groom, &mut frames, RATE, &path, &options).map(drop)?)
+        Ok(write_animation(groom, &mut frames, &MotionOptions::at_rate(RATE), &path, &options).map(drop)?)
     })?;
     figures.push(("ten frames usdc", moving));
     Ok(figures)

@@ -3,11 +3,11 @@
 use std::io::BufWriter;
 use std::path::Path;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use groom::Groom;
 
 use crate::read::endings;
-use crate::{Format, FormatError, Output, Warning, WriteOptions, check};
+use crate::{Format, FormatError, Output, Warning, WriteOptions, check, frame_check};
 
 /// Bytes gathered before the system is asked to write them.
 const BUFFER: usize = 1 << 20;
@@ -15,16 +15,37 @@ const BUFFER: usize = 1 << 20;
 /// Where the points of a groom are at one time.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Frame {
-    /// The time, in frames (a USD time code).
+    /// The time, in frames (a USD time code); need not be whole.
     pub time: f64,
     /// One position a point of the groom, in its units and order.
     pub positions: Vec<Vec3>,
     /// One velocity a point, in units per second; all frames have them or none.
     pub velocities: Option<Vec<Vec3>>,
+    /// One acceleration a point, in units per second squared; all frames have them or none, and they come with
+    /// velocities.
+    pub accelerations: Option<Vec<Vec3>>,
+}
+
+/// What is said of a motion as a whole.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MotionOptions {
+    /// Frames in a second; over 0.
+    pub frame_rate: f64,
+    /// Where the positions of all frames are measured from, in the groom's units. A character far away keeps the
+    /// shape of its strands: formats write the place as a transform in 64 bits and the positions as they are.
+    pub origin: DVec3,
+}
+
+impl MotionOptions {
+    /// Positions as they are, at so many frames a second.
+    #[must_use]
+    pub fn at_rate(frame_rate: f64) -> Self {
+        MotionOptions { frame_rate, origin: DVec3::ZERO }
+    }
 }
 
 /// Writes a groom that moves to `path`: everything but the positions is `groom`'s, `frames` come in the order
-/// of their times, and `frame_rate` of them make a second. One frame is in memory at a time.
+/// of their times. One frame is in memory at a time.
 ///
 /// `.usda`, `.usdc`, `.usdz` and `.abc` can hold motion.
 ///
@@ -34,7 +55,7 @@ pub struct Frame {
 pub fn write_animation(
     groom: &Groom,
     frames: &mut dyn Iterator<Item = Result<Frame, FormatError>>,
-    frame_rate: f64,
+    motion: &MotionOptions,
     path: &Path,
     options: &WriteOptions,
 ) -> Result<Vec<Warning>, FormatError> {
@@ -43,8 +64,9 @@ pub fn write_animation(
     let format = format
         .ok_or_else(|| FormatError::UnknownFormat { file: name.clone(), expected: endings(holds_motion) })?;
     check::values(groom, &name)?;
+    frame_check::options(motion, &name)?;
     let mut stream = BufWriter::with_capacity(BUFFER, Output::create(path)?);
-    let motion = Motion { groom, frames, frame_rate };
+    let motion = Motion { groom, frames, options: motion };
     let warnings = match format {
         #[cfg(feature = "alembic")]
         Format::Alembic => crate::alembic::write_animation(motion, &mut stream, &name, options)?,
@@ -61,7 +83,7 @@ pub fn write_animation(
 pub(crate) struct Motion<'a> {
     pub(crate) groom: &'a Groom,
     pub(crate) frames: &'a mut dyn Iterator<Item = Result<Frame, FormatError>>,
-    pub(crate) frame_rate: f64,
+    pub(crate) options: &'a MotionOptions,
 }
 
 fn holds_motion(format: Format) -> bool {

@@ -82,6 +82,7 @@ mod data;
 mod drawable;
 mod error;
 mod format;
+mod frame_check;
 mod frames;
 #[cfg(feature = "gltf")]
 mod gltf;
@@ -121,7 +122,7 @@ mod usd;
 mod warning;
 mod write;
 
-pub use animation::{Frame, write_animation};
+pub use animation::{Frame, MotionOptions, write_animation};
 pub use error::FormatError;
 pub use format::Format;
 pub use frames::{Frames, read_frames};

@@ -8,7 +8,9 @@ use std::rc::Rc;
 use anyhow::{Result, bail};
 use command_line::progress_bar;
 use groom::{Attribute, Groom, Values, names};
-use groom_formats::{Format, FormatError, Frame, Loaded, Warning, WriteOptions, write_animation};
+use groom_formats::{
+    Format, FormatError, Frame, Loaded, MotionOptions, Warning, WriteOptions, write_animation,
+};
 
 use crate::args::{Args, is_stream};
 use crate::edit::Edits;
@@ -172,7 +174,8 @@ impl<'a> Motion<'a> {
                     FormatError::Io { file: self.name.clone(), source: stopped }
                 })
             });
-            write_animation(&self.groom, &mut frames, self.frame_rate, output, options)
+            let motion = MotionOptions::at_rate(self.frame_rate);
+            write_animation(&self.groom, &mut frames, &motion, output, options)
         };
         bar.finish();
         match (fault.take(), written) {
@@ -217,5 +220,5 @@ fn frame_of(
     let both = groom.attributes().chain(like.attributes());
     let differing = both.filter(|(name, _)| groom.attribute(name) != like.attribute(name));
     changed.borrow_mut().extend(differing.map(|(name, _)| name.to_owned()));
-    Ok(Frame { time, positions: groom.positions().to_owned(), velocities })
+    Ok(Frame { time, positions: groom.positions().to_owned(), velocities, ..Frame::default() })
 }

@@ -7,6 +7,16 @@ use ogawa::{DataType, Metadata, Pod};
 
 /// The schema of curves.
 pub(super) const CURVES: &str = "AbcGeom_Curve_v2";
+/// The schema of transforms.
+pub(super) const XFORM: &str = "AbcGeom_Xform_v3";
+/// The compound in which a transform stands, and its parts.
+pub(super) const XFORM_COMPOUND: &str = ".xform";
+pub(super) const INHERITS: &str = ".inherits";
+pub(super) const OPERATIONS: &str = ".ops";
+pub(super) const CHANNELS: &str = ".vals";
+pub(super) const NOT_IDENTITY: &str = "isNotConstantIdentity";
+/// The operation that moves by three numbers.
+pub(super) const TRANSLATE: u8 = 1 << 4;
 /// The compound in which an object's schema stands.
 pub(super) const GEOMETRY: &str = ".geom";
 pub(super) const ARBITRARY: &str = ".arbGeomParams";
@@ -60,6 +70,12 @@ pub(super) const PARAMETERS: [(&str, &str); 5] = [
 pub(super) fn curves() -> (Metadata, Metadata) {
     let base = Metadata::new().with("schema", CURVES).with("schemaBaseType", "AbcGeom_GeomBase_v1");
     (base.clone().with("schemaObjTitle", &format!("{CURVES}:{GEOMETRY}")), base)
+}
+
+/// Metadata of a transform's object, and of its compound.
+pub(super) fn xform() -> (Metadata, Metadata) {
+    let base = Metadata::new().with("schema", XFORM);
+    (base.clone().with("schemaObjTitle", &format!("{XFORM}:{XFORM_COMPOUND}")), base)
 }
 
 /// What a scope is called.

@@ -7,7 +7,7 @@ use std::path::Path;
 use crate::support::{any_groom, finite, from_bytes, full_groom, set};
 use glam::{Vec2, Vec3};
 use groom::{Domain, Groom, UpAxis, Values, names};
-use groom_formats::{Dialect, Format, Frame, ReadOptions, WriteOptions, write_animation};
+use groom_formats::{Dialect, Format, Frame, MotionOptions, ReadOptions, WriteOptions, write_animation};
 use proptest::prelude::*;
 
 fn written(groom: &Groom, dialect: Option<Dialect>) -> Vec<u8> {
@@ -152,14 +152,16 @@ fn frames(groom: &Groom, times: &[f64], velocities: bool) -> Vec<Frame> {
             |(i, &p): (usize, &Vec3)| p + Vec3::new((i as f32 + time as f32).sin(), time as f32, -0.0);
         let positions: Vec<Vec3> = groom.positions().iter().enumerate().map(wander).collect();
         let velocities = velocities.then(|| positions.iter().map(|p| *p * 24.0).collect());
-        Frame { time, positions, velocities }
+        Frame { time, positions, velocities, ..Frame::default() }
     };
     times.iter().map(|&time| at(time)).collect()
 }
 
 fn animated(groom: &Groom, frames: &[Frame], rate: f64, path: &Path) {
     let mut given = frames.iter().cloned().map(Ok);
-    let warnings = write_animation(groom, &mut given, rate, path, &WriteOptions::default()).unwrap();
+    let warnings =
+        write_animation(groom, &mut given, &MotionOptions::at_rate(rate), path, &WriteOptions::default())
+            .unwrap();
     assert_eq!(warnings, []);
 }
 
@@ -221,14 +223,29 @@ fn frames_that_do_not_fit_are_refused_and_the_old_file_stays() {
         let mut frames = good.clone();
         change(&mut frames);
         let mut given = frames.into_iter().map(Ok);
-        let error = write_animation(&groom, &mut given, rate, &path, &WriteOptions::default()).unwrap_err();
+        let error = write_animation(
+            &groom,
+            &mut given,
+            &MotionOptions::at_rate(rate),
+            &path,
+            &WriteOptions::default(),
+        )
+        .unwrap_err();
         assert!(error.to_string().contains(words), "{error}");
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
     };
     refused(&|_| {}, 0.0, "frame rate: found 0");
     refused(&|frames| frames.clear(), 24.0, "frames: found none");
-    refused(&|frames| frames[1].time = 1.0, 24.0, "frame 1, time: found 1, expected a number over 1");
-    refused(&|frames| frames[1].positions.truncate(7), 24.0, "frame 1, positions: found 7, expected 8");
-    refused(&|frames| frames[0].positions[3].y = f32::NAN, 24.0, "frame 0, positions, point 3: found");
-    refused(&|frames| frames[1].velocities = Some(vec![]), 24.0, "frame 1, velocities: found there");
+    refused(&|frames| frames[1].time = 1.0, 24.0, "time of frame 1: found 1, expected more than 1");
+    refused(
+        &|frames| frames[1].positions.truncate(7),
+        24.0,
+        "position of frame 1: found 7 values, expected 8",
+    );
+    refused(&|frames| frames[0].positions[3].y = f32::NAN, 24.0, "position of frame 0: found");
+    refused(
+        &|frames| frames[1].velocities = Some(vec![]),
+        24.0,
+        "velocities of frame 1: found some, expected none",
+    );
 }

@@ -353,7 +353,7 @@ fn groom() -> Groom {
 #[cfg(all(feature = "usdc", feature = "usdz"))]
 #[test]
 fn what_is_written_is_read_back_to_the_bit() {
-    use groom_formats::{Frame, WriteOptions, write, write_animation};
+    use groom_formats::{Frame, MotionOptions, WriteOptions, write, write_animation};
     let folder = tempfile::tempdir().unwrap();
     let groom = groom();
     for ending in ["usda", "usdc", "usdz"] {
@@ -366,11 +366,12 @@ fn what_is_written_is_read_back_to_the_bit() {
             .map(|frame| {
                 let positions = groom.positions().iter().map(|p| p * (1.0 + frame as f32 / 3.0)).collect();
                 let velocities = Some(groom.positions().iter().map(|p| p * 8.0).collect());
-                Frame { time: 10.0 + f64::from(frame) / 2.0, positions, velocities }
+                Frame { time: 10.0 + f64::from(frame) / 2.0, positions, velocities, ..Frame::default() }
             })
             .collect();
         let mut given = frames.iter().cloned().map(Ok);
-        write_animation(&groom, &mut given, 24.0, &path, &WriteOptions::default()).unwrap();
+        write_animation(&groom, &mut given, &MotionOptions::at_rate(24.0), &path, &WriteOptions::default())
+            .unwrap();
         let (loaded, read) = read_frames(&path, &ReadOptions::default()).unwrap();
         assert_eq!(read.map(Result::unwrap).collect::<Vec<_>>(), frames, "{ending}");
         assert_eq!((loaded.times, loaded.frame_rate), (vec![10.0, 10.5, 11.0, 11.5], Some(24.0)));
@@ -419,7 +420,8 @@ fn shared(prims: usize, primvars: usize) -> Vec<u8> {
         let prim = layer.prim(&format!("/C{index}"), "BasisCurves").unwrap();
         let mut set = |name: &str, type_name, interpolation, value: Value<'_>| {
             let content = Content::Value(layer.store(value).unwrap());
-            let attribute = Attribute { name, type_name, uniform: false, interpolation, content };
+            let attribute =
+                Attribute { name, type_name, uniform: false, interpolation, element_size: None, content };
             layer.attribute(prim, attribute).unwrap();
         };
         set("type", "token", None, Value::Token("linear"));

@@ -6,9 +6,11 @@
 use std::path::Path;
 
 use crate::support::{any_groom, from_bytes, full_groom, offsets, to_bytes};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use groom::{Groom, names};
-use groom_formats::{Dialect, Format, FormatError, Frame, Warning, WriteOptions, write_animation};
+use groom_formats::{
+    Dialect, Format, FormatError, Frame, MotionOptions, Warning, WriteOptions, write_animation,
+};
 use proptest::prelude::*;
 
 const ENDINGS: [&str; 3] = ["usda", "usdc", "usdz"];
@@ -18,12 +20,40 @@ fn frames(groom: &Groom, times: &[f64]) -> Vec<Frame> {
         time,
         positions: groom.positions().iter().map(|&p| p + Vec3::X * time as f32).collect(),
         velocities: Some(vec![Vec3::X * 24.0; groom.point_count()]),
+        accelerations: None,
     };
     times.iter().map(frame).collect()
 }
 
 fn animate(groom: &Groom, frames: Vec<Frame>, rate: f64, path: &Path) -> Result<Vec<Warning>, FormatError> {
-    write_animation(groom, &mut frames.into_iter().map(Ok), rate, path, &WriteOptions::default())
+    write_animation(
+        groom,
+        &mut frames.into_iter().map(Ok),
+        &MotionOptions::at_rate(rate),
+        path,
+        &WriteOptions::default(),
+    )
+}
+
+#[test]
+fn accelerations_have_the_times_of_points_and_an_origin_is_a_translation() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.usda");
+    let groom = full_groom();
+    let mut frames = frames(&groom, &[1.0, 1.5]);
+    frames.iter_mut().for_each(|f| f.accelerations = Some(vec![Vec3::new(0.0, -9.81, 0.0); 8]));
+    let motion = MotionOptions { origin: DVec3::new(1234567.875, 0.1, -3.0), ..MotionOptions::at_rate(24.0) };
+    write_animation(&groom, &mut frames.into_iter().map(Ok), &motion, &path, &WriteOptions::default())
+        .unwrap();
+    let text = std::fs::read_to_string(path).unwrap();
+    for line in [
+        "double3 xformOp:translate = (1234567.875, 0.1, -3)",
+        "uniform token[] xformOpOrder = [\"xformOp:translate\"]",
+        "vector3f[] accelerations.timeSamples = {",
+        "            1.5: [(0, -9.81, 0)",
+    ] {
+        assert!(text.contains(line), "{line} is not in\n{text}");
+    }
 }
 
 fn compare(text: &str, golden: &str) {
@@ -123,6 +153,19 @@ fn frames_that_make_no_motion_are_refused_by_name() {
         (change(0, &|f| f.positions[4].y = f32::NAN), 24.0, "at point 4, expected finite numbers"),
         (change(1, &|f| f.positions[0].y = f32::MAX), 24.0, "leave 32-bit floats"),
     ];
+    let cases = cases.into_iter().chain([
+        (
+            change(1, &|f| f.accelerations = Some(vec![Vec3::ZERO; 8])),
+            24.0,
+            "accelerations of frame 1: found some, expected none, as before",
+        ),
+        (
+            change(0, &|f| (f.velocities, f.accelerations) = (None, Some(vec![Vec3::ZERO; 8]))),
+            24.0,
+            "accelerations of frame 0: found some, expected none, or velocities with them",
+        ),
+    ]);
+    let cases: Vec<_> = cases.collect();
     for ending in ENDINGS {
         let path = folder.path().join(format!("old.{ending}"));
         std::fs::write(&path, "old").unwrap();
@@ -130,9 +173,14 @@ fn frames_that_make_no_motion_are_refused_by_name() {
             let error = animate(&wide, frames.clone(), *rate, &path).unwrap_err().to_string();
             assert!(error.contains(words), "{error}: {words}");
         }
+        let motion = MotionOptions { origin: DVec3::NAN, ..MotionOptions::at_rate(24.0) };
+        let mut coming = good.clone().into_iter().map(Ok);
+        let error = write_animation(&groom, &mut coming, &motion, &path, &WriteOptions::default());
+        assert!(error.unwrap_err().to_string().contains("origin: found [NaN"));
         let broken = FormatError::Unsupported { file: "x".into(), format: Format::Usdc, what: "broke" };
         let mut coming = vec![Ok(good[0].clone()), Err(broken)].into_iter();
-        write_animation(&groom, &mut coming, 24.0, &path, &WriteOptions::default()).unwrap_err();
+        write_animation(&groom, &mut coming, &MotionOptions::at_rate(24.0), &path, &WriteOptions::default())
+            .unwrap_err();
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
     }
 }

@@ -48,6 +48,8 @@ pub struct Attribute<'a> {
     pub uniform: bool,
     /// What one value belongs to: `constant`, `uniform`, `vertex`.
     pub interpolation: Option<&'a str>,
+    /// How many values of the array make one; `None` is 1.
+    pub element_size: Option<i32>,
     /// What it holds.
     pub content: Content<'a>,
 }
@@ -69,7 +71,7 @@ impl<'a> Attribute<'a> {
     /// An attribute that may change over time, with no interpolation.
     #[must_use]
     pub fn new(name: &'a str, type_name: &'a str, content: Content<'a>) -> Self {
-        Attribute { name, type_name, uniform: false, interpolation: None, content }
+        Attribute { name, type_name, uniform: false, interpolation: None, element_size: None, content }
     }
 }
 
@@ -112,6 +114,19 @@ impl<W: Write + Seek> CrateWriter<W> {
             Value::Double(value) => self.single(Type::Double, &[&value.to_le_bytes()]),
             Value::Float2(value) => self.single(Type::Float2, &[bytemuck::cast_slice(&value)]),
             Value::Float3(value) => self.single(Type::Float3, &[bytemuck::cast_slice(&value)]),
+            Value::Double3(value) => self.single(Type::Double3, &[bytemuck::cast_slice(&value)]),
+            Value::Matrix4(value) => self.single(Type::Matrix4, &[bytemuck::cast_slice(&value)]),
+            Value::Half3s(values) => {
+                self.array(Type::Half3, values.len(), bytemuck::cast_slice(values), false)
+            }
+            Value::Quaternions(values) => {
+                // A crate has the real part last.
+                let turned: Vec<[f32; 4]> = values.iter().map(|&[w, x, y, z]| [x, y, z, w]).collect();
+                self.array(Type::Quaternion, values.len(), bytemuck::cast_slice(&turned), false)
+            }
+            Value::Matrix4s(values) => {
+                self.array(Type::Matrix4, values.len(), bytemuck::cast_slice(values), false)
+            }
             Value::Ints(values) => match packed_ints(values)? {
                 Some(packed) => self.array(Type::Int, values.len(), &packed, true),
                 None => self.array(Type::Int, values.len(), bytemuck::cast_slice(values), false),
@@ -215,6 +230,9 @@ impl<W: Write + Seek> CrateWriter<W> {
         }
         if let Some(interpolation) = attribute.interpolation {
             fields.push((self.tokens.token("interpolation"), self.store(Value::Token(interpolation))?));
+        }
+        if let Some(size) = attribute.element_size {
+            fields.push((self.tokens.token("elementSize"), self.store(Value::Int(size))?));
         }
         match attribute.content {
             Content::Nothing => {}

@@ -20,6 +20,10 @@ pub enum Value<'a> {
     Float2([f32; 2]),
     /// `float3`, `point3f`, `vector3f`, `color3f`.
     Float3([f32; 3]),
+    /// `double3`.
+    Double3([f64; 3]),
+    /// `matrix4d`: rows, for points that are rows.
+    Matrix4([f64; 16]),
     /// `int[]`.
     Ints(&'a [i32]),
     /// `float[]`.
@@ -28,6 +32,12 @@ pub enum Value<'a> {
     Float2s(&'a [[f32; 2]]),
     /// `float3[]`, `point3f[]`, `vector3f[]`, `color3f[]`.
     Float3s(&'a [[f32; 3]]),
+    /// `half3[]`: bits of halves.
+    Half3s(&'a [[u16; 3]]),
+    /// `quatf[]`: real part first.
+    Quaternions(&'a [[f32; 4]]),
+    /// `matrix4d[]`: rows, for points that are rows.
+    Matrix4s(&'a [[f64; 16]]),
     /// `token[]`.
     Tokens(&'a [&'a str]),
     /// `string[]`.
@@ -49,8 +59,12 @@ pub(super) enum Type {
     Double = 9,
     String = 10,
     Token = 11,
+    Matrix4 = 15,
+    Quaternion = 17,
     Float2 = 20,
+    Double3 = 23,
     Float3 = 24,
+    Half3 = 25,
     TokenListOp = 32,
     PathListOp = 34,
     TokenVector = 41,

@@ -165,7 +165,7 @@ impl<'a> Scene<'a> {
 fn times(tree: &Tree<'_>, samples: &Samples) -> Result<Vec<f64>, OgawaError> {
     let mut all: Vec<f64> = Vec::new();
     let points = tree.curves.iter().map(|(_, geometry)| geometry.find(schema::POINTS));
-    let moving = tree.nodes.iter().filter_map(|node| node.xform).map(|xform| xform.find(".vals"));
+    let moving = tree.nodes.iter().filter_map(|node| node.xform).map(|xform| xform.find(schema::CHANNELS));
     for property in points.chain(moving) {
         let Some(property) = property? else { continue };
         if !property.is_constant() {

@@ -8,8 +8,6 @@ use crate::alembic::schema;
 
 /// What the schema of a transform begins with; the number after it is its version.
 const XFORM: &str = "AbcGeom_Xform";
-/// The compound in which a transform stands.
-const XFORM_COMPOUND: &str = ".xform";
 
 /// Bytes that an object takes in a file, at least: its place, its header and a group with two digests.
 const OBJECT_BYTES: usize = 64;
@@ -71,7 +69,7 @@ impl<'a> Tree<'a> {
             object.properties()?.find(name)?.map(|compound| compound.compound()).transpose()
         };
         if schema.starts_with(XFORM) {
-            node.xform = inside(XFORM_COMPOUND)?;
+            node.xform = inside(schema::XFORM_COMPOUND)?;
         }
         let index = self.nodes.len();
         self.nodes.push(node);

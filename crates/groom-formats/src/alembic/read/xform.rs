@@ -5,6 +5,7 @@ use ogawa::{CompoundReader, OgawaError};
 
 use super::tree::Tree;
 use super::values::Samples;
+use crate::alembic::schema;
 
 /// What brings a node's points into the archive's space.
 pub(super) fn world_from_node(tree: &Tree<'_>, node: usize, samples: &Samples) -> Result<DMat4, OgawaError> {
@@ -24,7 +25,7 @@ pub(super) fn world_from_node(tree: &Tree<'_>, node: usize, samples: &Samples) -
 
 /// Whether what is above a transform moves it too.
 fn inherits(xform: CompoundReader<'_>, samples: &Samples) -> Result<bool, OgawaError> {
-    let Some(inherits) = xform.find(".inherits")?.filter(|inherits| inherits.sample_count() > 0) else {
+    let Some(inherits) = xform.find(schema::INHERITS)?.filter(|inherits| inherits.sample_count() > 0) else {
         return Ok(true);
     };
     Ok(samples.held(&inherits)?.bytes().first() != Some(&0))
@@ -32,7 +33,7 @@ fn inherits(xform: CompoundReader<'_>, samples: &Samples) -> Result<bool, OgawaE
 
 /// The operations of a transform one after another, the last first upon a point.
 fn matrix(xform: CompoundReader<'_>, samples: &Samples) -> Result<DMat4, OgawaError> {
-    let (Some(ops), Some(vals)) = (xform.find(".ops")?, xform.find(".vals")?) else {
+    let (Some(ops), Some(vals)) = (xform.find(schema::OPERATIONS)?, xform.find(schema::CHANNELS)?) else {
         return Ok(DMat4::IDENTITY);
     };
     if ops.sample_count() == 0 || vals.sample_count() == 0 {

@@ -2,7 +2,7 @@
 
 use std::io::{Seek, Write};
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use groom::{Domain, Groom, UpAxis, Values, names};
 use ogawa::{
     ArchiveWriter, Compound, DataType, Metadata, Object, OgawaError, Property, StoredSample, TimeSampling,
@@ -10,6 +10,7 @@ use ogawa::{
 
 use super::attributes::{self, Parameters};
 use super::fault;
+use super::origin;
 use super::space::Space;
 use crate::alembic::schema;
 use crate::{Dialect, Format, FormatError, Warning, WriteOptions};
@@ -29,10 +30,14 @@ pub(super) struct CurvesWriter<'a, W> {
     pub(super) space: Space,
     pub(super) dialect: Option<Dialect>,
     file: &'a str,
+    /// Where the points are measured from, in the archive's space.
+    origin: DVec3,
     parameters: Parameters,
     counts: StoredSample,
     /// Corners of the box around the points, a sample a frame.
     bounds: Vec<StoredSample>,
+    /// The same, where the origin puts it.
+    placed_bounds: Vec<StoredSample>,
     points: Vec<StoredSample>,
     velocities: Vec<StoredSample>,
     warnings: Vec<Warning>,
@@ -51,6 +56,7 @@ impl<'a, W: Write + Seek> CurvesWriter<'a, W> {
         stream: W,
         file: &'a str,
         options: &WriteOptions,
+        origin: DVec3,
         velocities: bool,
     ) -> Result<Self, FormatError> {
         if groom.strand_count() == 0 {
@@ -64,9 +70,11 @@ impl<'a, W: Write + Seek> CurvesWriter<'a, W> {
             space,
             dialect: options.dialect,
             file,
+            origin: space.place(origin),
             parameters: Parameters::default(),
             counts: StoredSample::EMPTY,
             bounds: Vec::new(),
+            placed_bounds: Vec::new(),
             points: Vec::new(),
             velocities: Vec::new(),
             warnings: Vec::new(),
@@ -96,9 +104,13 @@ impl<'a, W: Write + Seek> CurvesWriter<'a, W> {
         for &point in &*positions {
             (low, high) = (low.min(point), high.max(point));
         }
-        let corners = [low.x, low.y, low.z, high.x, high.y, high.z].map(f64::from);
+        let corners = |by: DVec3| {
+            let [low, high] = [low.as_dvec3() + by, high.as_dvec3() + by];
+            [low.x, low.y, low.z, high.x, high.y, high.z]
+        };
         let mut write = || {
-            self.bounds.push(self.archive.values(&corners)?);
+            self.bounds.push(self.archive.values(&corners(DVec3::ZERO))?);
+            self.placed_bounds.push(self.archive.values(&corners(self.origin))?);
             self.points.push(self.archive.values(numbers(&positions))?);
             Ok(())
         };
@@ -158,8 +170,8 @@ impl<'a, W: Write + Seek> CurvesWriter<'a, W> {
         object.properties.push(Property::compound(schema::GEOMETRY, of_geometry, geometry));
         let mut top = Object::top();
         let box_of_all = Property::scalar(schema::CHILD_BOUNDS, DataType::BOX, meaning("box"));
-        top.properties.push(moving(box_of_all, &self.bounds));
-        top.children.push(object);
+        top.properties.push(moving(box_of_all, &self.placed_bounds));
+        top.children.push(origin::place(object, self.origin, &mut self.archive)?);
         self.archive.finish(&top, &about)?;
         Ok(())
     }

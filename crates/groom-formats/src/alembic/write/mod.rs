@@ -4,11 +4,13 @@ mod attributes;
 mod curves;
 mod guides;
 mod motion;
+mod origin;
 mod space;
 mod spread;
 
 use std::io::{Seek, Write};
 
+use glam::DVec3;
 use groom::Groom;
 use ogawa::OgawaError;
 
@@ -23,7 +25,7 @@ pub(crate) fn write(
     name: &str,
     options: &WriteOptions,
 ) -> Result<Vec<Warning>, FormatError> {
-    let mut curves = CurvesWriter::new(groom, stream, name, options, true)?;
+    let mut curves = CurvesWriter::new(groom, stream, name, options, DVec3::ZERO, true)?;
     curves.positions(groom.positions())?;
     curves.finish(None)
 }

@@ -2,12 +2,12 @@
 
 use std::io::{Seek, Write};
 
-use glam::Vec3;
 use ogawa::TimeSampling;
 
 use super::curves::{Clock, CurvesWriter};
 use crate::animation::Motion;
-use crate::{FormatError, Frame, Warning, WriteOptions};
+use crate::frame_check::FrameCheck;
+use crate::{Format, FormatError, Warning, WriteOptions};
 
 /// How far, in frames, times may lie from an even step and still be written as one.
 const EVEN: f64 = 1e-9;
@@ -18,60 +18,32 @@ pub(crate) fn write_animation(
     name: &str,
     options: &WriteOptions,
 ) -> Result<Vec<Warning>, FormatError> {
-    let Motion { groom, frames, frame_rate } = motion;
-    if !(frame_rate.is_finite() && frame_rate > 0.0) {
-        let expected = "a positive number of frames a second";
-        return Err(FormatError::invalid(name, "frame rate", frame_rate.to_string(), expected));
-    }
+    let Motion { groom, frames, options: motion } = motion;
     let mut frames = frames.peekable();
     // Whether frames bring velocities shows in the first; an error in it is met in its turn.
-    let brings = matches!(frames.peek(), Some(Ok(frame)) if frame.velocities.is_some());
-    let mut curves = CurvesWriter::new(groom, stream, name, options, !brings)?;
+    let first = frames.peek().and_then(|frame| frame.as_ref().ok());
+    let brings = first.is_some_and(|frame| frame.velocities.is_some());
+    let accelerates = first.is_some_and(|frame| frame.accelerations.is_some());
+    let mut curves = CurvesWriter::new(groom, stream, name, options, motion.origin, !brings)?;
     let mut times: Vec<f64> = Vec::new();
+    let mut check = FrameCheck::new(groom.point_count(), name);
     for frame in frames {
         let frame = frame?;
-        check(&frame, times.last().copied(), groom.point_count(), brings).map_err(
-            |(place, found, expected)| {
-                FormatError::invalid(name, format!("frame {}{place}", times.len()), found, expected)
-            },
-        )?;
+        check.take(&frame)?;
         curves.positions(&frame.positions)?;
         if let Some(velocities) = &frame.velocities {
             curves.velocities(velocities)?;
         }
         times.push(frame.time);
     }
-    if times.is_empty() {
-        return Err(FormatError::invalid(name, "frames", "none", "one or more"));
+    check.finish()?;
+    let frame_rate = motion.frame_rate;
+    let mut warnings = curves.finish(Some(Clock { times: sampling(&times, frame_rate), frame_rate }))?;
+    if accelerates {
+        let name = "acceleration".to_owned();
+        warnings.push(Warning::AttributeLeftOut { format: Format::Alembic, name });
     }
-    curves.finish(Some(Clock { times: sampling(&times, frame_rate), frame_rate }))
-}
-
-/// Place, found and expected of what is wrong with a frame.
-type Fault = (String, String, String);
-
-fn check(frame: &Frame, before: Option<f64>, points: usize, velocities: bool) -> Result<(), Fault> {
-    let fault = |place: &str, found: String, expected: &str| Err((place.into(), found, expected.into()));
-    if !frame.time.is_finite() || before.is_some_and(|before| frame.time <= before) {
-        let expected = before.map_or("a finite number".into(), |before| format!("a number over {before}"));
-        return fault(", time", frame.time.to_string(), &expected);
-    }
-    if frame.velocities.is_some() != velocities {
-        let words = |there| if there { "there" } else { "missing" };
-        return fault(", velocities", words(!velocities).into(), words(velocities));
-    }
-    let arrays = [(", positions", Some(&frame.positions)), (", velocities", frame.velocities.as_ref())];
-    for (place, array) in arrays {
-        let Some(array) = array else { continue };
-        if array.len() != points {
-            return fault(place, array.len().to_string(), &format!("{points}, as many as the groom has"));
-        }
-        if let Some(point) = array.iter().position(|v: &Vec3| !v.is_finite()) {
-            let place = format!("{place}, point {point}");
-            return fault(&place, array[point].to_string(), "finite numbers");
-        }
-    }
-    Ok(())
+    Ok(warnings)
 }
 
 /// Even times as a step, others as a list.

@@ -2,7 +2,7 @@
 
 use std::borrow::Cow;
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use groom::{Groom, UpAxis};
 
 use crate::Dialect;
@@ -42,6 +42,16 @@ impl Space {
             if self.factor == 1.0 { turned } else { (turned.as_dvec3() * self.factor).as_vec3() }
         };
         Cow::Owned(vectors.iter().map(change).collect())
+    }
+
+    /// A place, in 64 bits.
+    pub(super) fn place(self, place: DVec3) -> DVec3 {
+        let turned = match (self.from, self.up_axis) {
+            (UpAxis::Y, UpAxis::Z) => DVec3::new(place.x, -place.z, place.y),
+            (UpAxis::Z, UpAxis::Y) => DVec3::new(place.x, place.z, -place.y),
+            _ => place,
+        };
+        turned * self.factor
     }
 
     /// Twice a radius.

@@ -70,11 +70,20 @@ impl<W: Write + Seek> Sink for CrateSink<'_, W> {
             Content::Single(value) => Held::Value(self.layer.store(single(value))?),
             Content::Array(array) => Held::Value(self.store(array)?),
             Content::Samples(samples) => Held::Samples(self.layer.time_samples(samples)?),
+            Content::Moving(samples) => {
+                let mut stored = Vec::with_capacity(samples.len());
+                for &(time, value) in samples {
+                    stored.push((time, self.layer.store(single(value))?));
+                }
+                Held::Samples(self.layer.time_samples(&stored)?)
+            }
             Content::Connection(source) => Held::Connection(source),
         };
-        let Declaration { name, type_name, uniform, interpolation } = attribute;
+        let Declaration { name, type_name, uniform, interpolation, element_size } = attribute;
         let prim = self.innermost()?;
-        self.layer.attribute(prim, Attribute { name, type_name, uniform, interpolation, content: held })
+        let content = held;
+        let attribute = Attribute { name, type_name, uniform, interpolation, element_size, content };
+        self.layer.attribute(prim, attribute)
     }
 
     fn relationship(&mut self, name: &str, target: &str) -> Result<(), WriteError> {
@@ -96,5 +105,12 @@ fn single(value: Single<'_>) -> Value<'_> {
         Single::Double(value) => Value::Double(value),
         Single::Float2(value) => Value::Float2(value),
         Single::Float3(value) => Value::Float3(value),
+        Single::Double3(value) => Value::Double3(value),
+        Single::Matrix4(value) => Value::Matrix4(value),
+        Single::Tokens(words) => Value::Tokens(words),
+        Single::Float3s(values) => Value::Float3s(values),
+        Single::Half3s(values) => Value::Half3s(values),
+        Single::Quaternions(values) => Value::Quaternions(values),
+        Single::Matrix4s(values) => Value::Matrix4s(values),
     }
 }

@@ -34,9 +34,12 @@ mod array;
 mod crate_sink;
 mod curves;
 mod extent;
+#[allow(dead_code)] // until skeletons are written
+mod half;
 mod material;
 mod motion;
 mod primvars;
+#[allow(dead_code)] // until skeletons are written
 mod sink;
 mod stage;
 #[cfg(feature = "usda")]
@@ -44,6 +47,7 @@ mod text_sink;
 
 use std::io::{Seek, Write};
 
+use glam::DVec3;
 use groom::{Groom, names};
 use usd_layer::write::{CrateWriter, PackageWriter, WriteError};
 
@@ -145,6 +149,7 @@ impl Job<'_> {
         warnings: &mut Vec<Warning>,
     ) -> Result<(), FormatError> {
         let Job { format, file, options } = self;
+        let origin = motion.as_ref().map_or(DVec3::ZERO, |motion| motion.options.origin);
         let samples = motion.map(|motion| motion::store(sink, curves, motion, format, file)).transpose()?;
         let still_velocity = curves.groom.attribute(names::VELOCITY).is_some();
         if still_velocity && samples.as_ref().is_some_and(|samples| samples.velocities.is_empty()) {
@@ -154,7 +159,7 @@ impl Job<'_> {
         }
         let primvars = primvars::all(curves, options.dialect, format, warnings);
         let look = options.look.as_ref();
-        let stage = Stage { curves, primvars: &primvars, dialect: options.dialect, look };
+        let stage = Stage { curves, primvars: &primvars, dialect: options.dialect, look, origin };
         stage.write(sink, samples.as_ref()).map_err(|e| failed(e, format, file))
     }
 

@@ -50,11 +50,13 @@ pub(super) struct Declaration<'a> {
     pub type_name: &'a str,
     pub uniform: bool,
     pub interpolation: Option<&'a str>,
+    /// How many values make one.
+    pub element_size: Option<i32>,
 }
 
 impl<'a> Declaration<'a> {
     pub fn new(type_name: &'a str, name: &'a str) -> Self {
-        Declaration { name, type_name, uniform: false, interpolation: None }
+        Declaration { name, type_name, uniform: false, interpolation: None, element_size: None }
     }
 
     pub fn uniform(type_name: &'a str, name: &'a str) -> Self {
@@ -70,6 +72,8 @@ pub(super) enum Content<'a, S> {
     Array(&'a Array<'a>),
     /// Time codes and arrays put aside.
     Samples(&'a [(f64, S)]),
+    /// Time codes and values that are small enough to be kept until now.
+    Moving(&'a [(f64, Single<'a>)]),
     /// The path of another attribute.
     Connection(&'a str),
 }
@@ -83,4 +87,13 @@ pub(super) enum Single<'a> {
     Double(f64),
     Float2([f32; 2]),
     Float3([f32; 3]),
+    Double3([f64; 3]),
+    Matrix4([f64; 16]),
+    Tokens(&'a [&'a str]),
+    Float3s(&'a [[f32; 3]]),
+    /// Bits of halves.
+    Half3s(&'a [[u16; 3]]),
+    /// Real part first.
+    Quaternions(&'a [[f32; 4]]),
+    Matrix4s(&'a [[f64; 16]]),
 }

@@ -1,5 +1,6 @@
 //! The stage: the layer's metadata, the Xform, the curves, their material.
 
+use glam::DVec3;
 use groom::{UpAxis, names};
 use usd_layer::write::WriteError;
 
@@ -19,6 +20,8 @@ pub(super) struct Stage<'a> {
     pub primvars: &'a [Primvar<'a>],
     pub dialect: Option<Dialect>,
     pub look: Option<&'a Look>,
+    /// Where the points are measured from.
+    pub origin: DVec3,
 }
 
 /// What changes over time, put aside with the sink.
@@ -30,6 +33,8 @@ pub(super) struct Samples<S> {
     pub extents: Vec<(f64, S)>,
     /// Empty when the frames have none.
     pub velocities: Vec<(f64, S)>,
+    /// Likewise.
+    pub accelerations: Vec<(f64, S)>,
 }
 
 impl Stage<'_> {
@@ -79,6 +84,7 @@ impl Stage<'_> {
     }
 
     fn strands<S: Sink>(&self, sink: &mut S, samples: Option<&Samples<S::Stored>>) -> Result<(), WriteError> {
+        self.place(sink)?;
         let curves = self.curves;
         let token = |word| Content::Single(Single::Token(word));
         let kind = if curves.phantoms { "cubic" } else { "linear" };
@@ -91,12 +97,7 @@ impl Stage<'_> {
         let points = positions(curves);
         let moving = samples.map(|samples| &samples.points[..]);
         sink.attribute(Declaration::new("point3f[]", "points"), still_or(&points, moving))?;
-        if let Some(samples) = samples.filter(|samples| !samples.velocities.is_empty()) {
-            let velocities = Content::Samples(&samples.velocities);
-            sink.attribute(Declaration::new("vector3f[]", "velocities"), velocities)?;
-        } else if let (None, Some(velocities)) = (samples, velocities(curves)) {
-            sink.attribute(Declaration::new("vector3f[]", "velocities"), Content::Array(&velocities))?;
-        }
+        self.derivatives(sink, samples)?;
         let widths = widths(curves);
         let per_vertex =
             Declaration { interpolation: Some("vertex"), ..Declaration::new("float[]", "widths") };
@@ -110,6 +111,36 @@ impl Stage<'_> {
             let interpolation = Some(array.interpolation());
             let declaration = Declaration { interpolation, ..Declaration::new(type_name, name) };
             sink.attribute(declaration, Content::Array(array))?;
+        }
+        Ok(())
+    }
+
+    /// Puts the prim where its points are measured from.
+    fn place<S: Sink>(&self, sink: &mut S) -> Result<(), WriteError> {
+        if self.origin == DVec3::ZERO {
+            return Ok(());
+        }
+        let translation = Content::Single(Single::Double3(self.origin.to_array()));
+        sink.attribute(Declaration::new("double3", "xformOp:translate"), translation)?;
+        let order = Content::Single(Single::Tokens(&["xformOp:translate"]));
+        sink.attribute(Declaration::uniform("token[]", "xformOpOrder"), order)
+    }
+
+    /// Velocities and accelerations: those of the frames, or the still groom's own velocities.
+    fn derivatives<S: Sink>(
+        &self,
+        sink: &mut S,
+        samples: Option<&Samples<S::Stored>>,
+    ) -> Result<(), WriteError> {
+        let Some(samples) = samples else {
+            let Some(velocities) = velocities(self.curves) else { return Ok(()) };
+            return sink.attribute(Declaration::new("vector3f[]", "velocities"), Content::Array(&velocities));
+        };
+        for (name, values) in [("velocities", &samples.velocities), ("accelerations", &samples.accelerations)]
+        {
+            if !values.is_empty() {
+                sink.attribute(Declaration::new("vector3f[]", name), Content::Samples(values))?;
+            }
         }
         Ok(())
     }

@@ -9,6 +9,7 @@ use usd_layer::write::WriteError;
 use crate::numbers::{Text, TextOut, shortest};
 use crate::usd::write::array::{Array, Place, Row, Rows, Shape};
 use crate::usd::write::curves::Curves;
+use crate::usd::write::half;
 use crate::usd::write::sink::{Content, Declaration, Head, Single, Sink};
 
 /// Writes `.usda`.
@@ -57,7 +58,31 @@ impl<'a, 's, W: Write> TextSink<'a, 's, W> {
             Single::Double(value) => self.words(&[&shortest(value)]),
             Single::Float2(value) => value.text(&mut self.out),
             Single::Float3(value) => value.text(&mut self.out),
+            Single::Double3(value) => self.words(&[&doubles(&value)]),
+            Single::Matrix4(value) => self.words(&[&matrix(&value)]),
+            Single::Tokens(words) => self.list(words, |word| format!("\"{word}\"")),
+            Single::Float3s(values) => self.list(values, |value| floats(value)),
+            Single::Half3s(values) => self.list(values, |value| floats(&value.map(half::to_f32))),
+            Single::Quaternions(values) => self.list(values, |value| floats(value)),
+            Single::Matrix4s(values) => self.list(values, matrix),
         }
+    }
+
+    fn list<T>(&mut self, values: &[T], text: impl Fn(&T) -> String) {
+        let texts: Vec<String> = values.iter().map(text).collect();
+        self.words(&["[", &texts.join(", "), "]"]);
+    }
+
+    fn moving(&mut self, samples: &[(f64, Single<'_>)]) {
+        self.out.push(b"{\n");
+        for &(time, value) in samples {
+            self.indent();
+            self.words(&["    ", &shortest(time), ": "]);
+            self.single(value);
+            self.out.push(b",\n");
+        }
+        self.indent();
+        self.out.push(b"}");
     }
 
     fn array(&mut self, array: &Array<'_>) -> io::Result<()> {
@@ -172,7 +197,7 @@ impl<W: Write> Sink for TextSink<'_, '_, W> {
     ) -> Result<(), WriteError> {
         self.begun = true;
         self.indent();
-        let Declaration { name, type_name, uniform, interpolation } = attribute;
+        let Declaration { name, type_name, uniform, interpolation, element_size } = attribute;
         self.words(&[if uniform { "uniform " } else { "" }, type_name, " ", name]);
         match content {
             Content::Nothing => {}
@@ -188,12 +213,22 @@ impl<W: Write> Sink for TextSink<'_, '_, W> {
                 self.out.push(b".timeSamples = ");
                 self.samples(samples)?;
             }
+            Content::Moving(samples) => {
+                self.out.push(b".timeSamples = ");
+                self.moving(samples);
+            }
             Content::Connection(source) => self.words(&[".connect = <", source, ">"]),
         }
-        if let Some(interpolation) = interpolation {
+        if interpolation.is_some() || element_size.is_some() {
             self.out.push(b" (\n");
-            self.indent();
-            self.words(&["    interpolation = \"", interpolation, "\"\n"]);
+            if let Some(size) = element_size {
+                self.indent();
+                self.words(&["    elementSize = ", &size.to_string(), "\n"]);
+            }
+            if let Some(interpolation) = interpolation {
+                self.indent();
+                self.words(&["    interpolation = \"", interpolation, "\"\n"]);
+            }
             self.indent();
             self.out.push(b")");
         }
@@ -216,6 +251,22 @@ impl<W: Write> Sink for TextSink<'_, '_, W> {
         self.out.push(b"}\n");
         Ok(())
     }
+}
+
+/// `(0.5, -1)`.
+fn doubles(values: &[f64]) -> String {
+    let numbers: Vec<String> = values.iter().map(|&value| shortest(value)).collect();
+    format!("({})", numbers.join(", "))
+}
+
+fn floats(values: &[f32]) -> String {
+    let numbers: Vec<String> = values.iter().map(|value| value.to_string()).collect();
+    format!("({})", numbers.join(", "))
+}
+
+fn matrix(values: &[f64; 16]) -> String {
+    let rows: Vec<String> = values.chunks(4).map(doubles).collect();
+    format!("( {} )", rows.join(", "))
 }
 
 /// A value as text.
