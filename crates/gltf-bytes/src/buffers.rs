@@ -68,7 +68,10 @@ impl<'a> Buffers<'a> {
     }
 
     /// The bytes of a view; `place` names who asks.
-    pub(crate) fn view(&self, view: &View<'_>, place: &str) -> Result<&[u8], GltfError> {
+    ///
+    /// # Errors
+    /// [`GltfError::Invalid`] when the view does not lie inside its buffer.
+    pub fn view(&self, view: &View<'_>, place: &str) -> Result<&[u8], GltfError> {
         let buffer = self.get(view.buffer().index());
         let range = view.offset().checked_add(view.length()).and_then(|end| buffer.get(view.offset()..end));
         range.ok_or_else(|| {
@@ -128,13 +131,14 @@ fn load_one<'a>(
     Ok(Cow::Owned(bytes))
 }
 
-fn decode(data: &str) -> Option<Vec<u8>> {
+/// The bytes of a data URI, without its `data:`.
+pub(crate) fn decode(data: &str) -> Option<Vec<u8>> {
     let (_, payload) = data.split_once(";base64,")?;
     base64::engine::general_purpose::STANDARD.decode(payload).ok()
 }
 
 /// The file a relative URI names; a file must not reach out of its own folder tree.
-fn beside(folder: &Path, uri: &str) -> Option<PathBuf> {
+pub(crate) fn beside(folder: &Path, uri: &str) -> Option<PathBuf> {
     let name = percent_encoding::percent_decode_str(uri).decode_utf8().ok()?;
     let relative = Path::new(&*name);
     let inside = relative.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));

@@ -1,5 +1,7 @@
 //! From JSON to a document whose indices and types are checked.
 
+use gltf::json::image::MimeType;
+use gltf::json::validation::Checked;
 use gltf::json::{Root, Value};
 use gltf::{Document, Semantic};
 
@@ -40,6 +42,8 @@ pub(crate) fn parse(json: &[u8]) -> Result<Document, GltfError> {
     // `Document::from_json` would also refuse the required extensions it has not been compiled for.
     root.extensions_required.clear();
     check_positions(&mut root)?;
+    check_channels(&root)?;
+    complete_images(&mut root);
     Document::from_json(root).map_err(|e| match e {
         gltf::Error::Validation(faults) => match faults.first() {
             Some((path, fault)) => GltfError::invalid(path.as_str(), fault.to_string(), "as glTF 2.0 says"),
@@ -68,7 +72,7 @@ fn check_positions(root: &mut Root) -> Result<(), GltfError> {
     let count = accessors.len();
     for (m, mesh) in meshes.iter().enumerate() {
         for (p, primitive) in mesh.primitives.iter().enumerate() {
-            let position = gltf::json::validation::Checked::Valid(Semantic::Positions);
+            let position = Checked::Valid(Semantic::Positions);
             let Some(index) = primitive.attributes.get(&position) else { continue };
             let Some(accessor) = accessors.get_mut(index.value()) else {
                 let place = format!("meshes[{m}].primitives[{p}].attributes.POSITION");
@@ -84,6 +88,38 @@ fn check_positions(root: &mut Root) -> Result<(), GltfError> {
         }
     }
     Ok(())
+}
+
+/// The crate validates the samplers of an animation but not what its channels move, and panics on either fault
+/// when asked for it.
+fn check_channels(root: &Root) -> Result<(), GltfError> {
+    for (a, animation) in root.animations.iter().enumerate() {
+        for (c, channel) in animation.channels.iter().enumerate() {
+            let place = format!("animations[{a}].channels[{c}].target");
+            let (node, nodes) = (channel.target.node.value(), root.nodes.len());
+            if node >= nodes {
+                let expected = format!("below the node count {nodes}");
+                return Err(GltfError::invalid(format!("{place}.node"), node.to_string(), expected));
+            }
+            if matches!(channel.target.path, Checked::Invalid) {
+                let expected = "translation, rotation, scale or weights";
+                return Err(GltfError::invalid(format!("{place}.path"), "another word", expected));
+            }
+        }
+    }
+    Ok(())
+}
+
+/// The crate panics when it is asked for an image that has a view and no type, or neither view nor address.
+/// Types are not trusted here, and an empty address is refused when the image is wanted.
+fn complete_images(root: &mut Root) {
+    for image in &mut root.images {
+        match image.buffer_view {
+            Some(_) if image.mime_type.is_none() => image.mime_type = Some(MimeType(String::new())),
+            None if image.uri.is_none() => image.uri = Some(String::new()),
+            _ => {}
+        }
+    }
 }
 
 #[cfg(test)]
@@ -138,5 +174,31 @@ mod tests {
             "accessors":[{"componentType":5126,"count":1,"type":"VEC3","bufferView":0}],
             "bufferViews":[{"buffer":0,"byteLength":12}],"buffers":[{"byteLength":12}]}"#;
         assert!(parse(json.as_bytes()).is_ok());
+    }
+
+    #[test]
+    fn channels_that_move_nothing_are_told() {
+        let with = |target: &str| {
+            format!(
+                r#"{{"asset":{{"version":"2.0"}},"nodes":[{{"name":"a"}}],
+                "accessors":[{{"componentType":5126,"count":1,"type":"SCALAR","bufferView":0}}],
+                "bufferViews":[{{"buffer":0,"byteLength":4}}],"buffers":[{{"byteLength":4}}],
+                "animations":[{{"samplers":[{{"input":0,"output":0}}],
+                "channels":[{{"sampler":0,"target":{target}}}]}}]}}"#
+            )
+        };
+        assert!(parse(with(r#"{"node":0,"path":"weights"}"#).as_bytes()).is_ok());
+        let node = "animations[0].channels[0].target.node: found 7, expected below the node count 1";
+        assert_eq!(told(&with(r#"{"node":7,"path":"scale"}"#)), node);
+        assert!(
+            told(&with(r#"{"node":0,"path":"colour"}"#)).starts_with("animations[0].channels[0].target.path")
+        );
+    }
+
+    #[test]
+    fn images_can_be_asked_for() {
+        let json = r#"{"asset":{"version":"2.0"},"images":[{},{"bufferView":0},{"uri":"a.png"}],
+            "bufferViews":[{"buffer":0,"byteLength":4}],"buffers":[{"byteLength":4}]}"#;
+        assert_eq!(parse(json.as_bytes()).unwrap().images().map(|image| image.source()).count(), 3);
     }
 }

@@ -27,6 +27,7 @@ mod container;
 mod document;
 mod elements;
 mod error;
+mod image;
 mod placement;
 mod sparse;
 
@@ -35,4 +36,5 @@ pub use buffers::Buffers;
 pub use container::split;
 pub use elements::Elements;
 pub use error::GltfError;
-pub use placement::placements;
+pub use image::ImageBytes;
+pub use placement::{Local, parents_first, placements};

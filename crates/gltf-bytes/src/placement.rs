@@ -12,19 +12,85 @@ use crate::GltfError;
 /// # Errors
 /// [`GltfError::Invalid`] when a node is reached twice: nodes form trees (glTF 2.0, section 3.5.2).
 pub fn placements(document: &Document) -> Result<Vec<Option<DMat4>>, GltfError> {
-    let mut worlds = vec![None; document.nodes().len()];
-    let mut visit: Vec<(Node<'_>, DMat4)> =
-        roots(document).into_iter().map(|node| (node, DMat4::IDENTITY)).collect();
-    while let Some((node, parent)) = visit.pop() {
-        let world = parent * local(&node);
-        let place = worlds.get_mut(node.index()).filter(|place| place.is_none()).ok_or_else(|| {
-            let place = format!("nodes[{}]", node.index());
-            GltfError::invalid(place, "a node reached twice", "a tree of nodes")
-        })?;
-        *place = Some(world);
-        visit.extend(node.children().map(|child| (child, world)));
+    let locals: Vec<Local> = document.nodes().map(|node| Local::of(&node)).collect();
+    let mut worlds = vec![None; locals.len()];
+    for (node, parent) in parents_first(document)? {
+        let parent = parent.and_then(|parent| worlds[parent]).unwrap_or(DMat4::IDENTITY);
+        worlds[node] = Some(parent * locals[node].matrix());
     }
     Ok(worlds)
+}
+
+/// Every node of the default scene (else of the first, else all nodes) with its parent, parents first; both
+/// are indices of nodes.
+///
+/// # Errors
+/// As [`placements`].
+pub fn parents_first(document: &Document) -> Result<Vec<(usize, Option<usize>)>, GltfError> {
+    let mut reached = vec![false; document.nodes().len()];
+    let mut order = Vec::new();
+    let mut visit: Vec<(Node<'_>, Option<usize>)> =
+        roots(document).into_iter().map(|node| (node, None)).collect();
+    while let Some((node, parent)) = visit.pop() {
+        let index = node.index();
+        let first = reached.get_mut(index).is_some_and(|reached| !std::mem::replace(reached, true));
+        if !first {
+            let place = format!("nodes[{index}]");
+            return Err(GltfError::invalid(place, "a node reached twice", "a tree of nodes"));
+        }
+        order.push((index, parent));
+        visit.extend(node.children().map(|child| (child, Some(index))));
+    }
+    Ok(order)
+}
+
+/// How a node stands on its parent.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Local {
+    /// As a matrix; such a node is not animated.
+    Matrix(DMat4),
+    /// In parts, scaled first and moved last.
+    Parts {
+        /// Where its origin stands.
+        translation: DVec3,
+        /// How it is turned, of length 1.
+        rotation: DQuat,
+        /// How it is scaled along its own axes.
+        scale: DVec3,
+    },
+}
+
+impl Local {
+    /// That of `node`, before any animation.
+    #[must_use]
+    pub fn of(node: &Node<'_>) -> Local {
+        match node.transform() {
+            Transform::Matrix { matrix } => {
+                Local::Matrix(DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from))))
+            }
+            Transform::Decomposed { translation, rotation, scale } => {
+                let [translation, scale] = [translation, scale].map(|v| DVec3::from_array(v.map(f64::from)));
+                let rotation = unit(DQuat::from_array(rotation.map(f64::from)));
+                Local::Parts { translation, rotation, scale }
+            }
+        }
+    }
+
+    /// The same as a matrix.
+    #[must_use]
+    pub fn matrix(&self) -> DMat4 {
+        match *self {
+            Local::Matrix(matrix) => matrix,
+            Local::Parts { translation, rotation, scale } => {
+                DMat4::from_scale_rotation_translation(scale, rotation, translation)
+            }
+        }
+    }
+}
+
+/// Not every writer's quaternions are of length 1; one of length 0 turns nothing.
+fn unit(rotation: DQuat) -> DQuat {
+    if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY }
 }
 
 fn roots(document: &Document) -> Vec<Node<'_>> {
@@ -38,22 +104,6 @@ fn roots(document: &Document) -> Vec<Node<'_>> {
         }
     }
     document.nodes().filter(|node| !is_child.get(node.index()).copied().unwrap_or_default()).collect()
-}
-
-fn local(node: &Node<'_>) -> DMat4 {
-    match node.transform() {
-        Transform::Matrix { matrix } => {
-            DMat4::from_cols_array_2d(&matrix.map(|column| column.map(f64::from)))
-        }
-        Transform::Decomposed { translation, rotation, scale } => {
-            let [translation, scale] = [translation, scale].map(|v| DVec3::from_array(v.map(f64::from)));
-            let rotation = DQuat::from_array(rotation.map(f64::from));
-            // Not every writer's quaternions are of length 1; one of length 0 turns nothing.
-            let rotation =
-                if rotation.length_squared() > 0.0 { rotation.normalize() } else { DQuat::IDENTITY };
-            DMat4::from_scale_rotation_translation(scale, rotation, translation)
-        }
-    }
 }
 
 #[cfg(test)]

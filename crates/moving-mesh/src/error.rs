@@ -5,6 +5,7 @@ use std::path::PathBuf;
 
 /// A mesh that could not be read.
 #[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
 pub enum MeshError {
     /// The system could not read the file, or a file it refers to.
     #[error("{}: {source}", path.display())]
@@ -34,6 +35,26 @@ pub enum MeshError {
         /// What to do instead.
         remedy: &'static str,
     },
+    /// The file has no such animation.
+    #[error("{}: no animation {asked}; it has {known}", path.display())]
+    NoAnimation {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        asked: String,
+        /// What there is.
+        known: String,
+    },
+    /// A number given to this crate is out of its range.
+    #[error("{name} {value}: expected {range}")]
+    Parameter {
+        /// Which one.
+        name: &'static str,
+        /// What was given.
+        value: f64,
+        /// What would be right.
+        range: &'static str,
+    },
 }
 
 /// A fault inside a file whose path the caller knows: place and fault, or unsupported.
@@ -42,6 +63,7 @@ pub(crate) enum Fault {
     Invalid { place: String, fault: String },
     Unsupported { what: String, remedy: &'static str },
     Io { path: PathBuf, source: io::Error },
+    NoAnimation { asked: String, known: String },
 }
 
 impl Fault {
@@ -55,6 +77,7 @@ impl Fault {
             Fault::Invalid { place, fault } => MeshError::Invalid { path, place, fault },
             Fault::Unsupported { what, remedy } => MeshError::Unsupported { path, what, remedy },
             Fault::Io { path, source } => MeshError::Io { path, source },
+            Fault::NoAnimation { asked, known } => MeshError::NoAnimation { path, asked, known },
         }
     }
 }

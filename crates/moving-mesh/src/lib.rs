@@ -1,22 +1,35 @@
-//! Triangle meshes for grooms to grow on and to shade, read from OBJ and glTF.
+//! Triangle meshes that move, for grooms to grow on and to shade: OBJ and glTF.
 //!
 //! ```no_run
-//! use moving_mesh::TriangleMesh;
+//! use moving_mesh::{MeshOptions, MovingMesh};
 //!
-//! let head = TriangleMesh::open("samples/head.obj")?;
-//! println!("{} triangles", head.triangles.len());
+//! let fox = MovingMesh::open("fox.glb", &MeshOptions::default())?;
+//! let pose = fox.pose(0.5)?;
+//! println!("{} triangles, first vertex at {}", fox.triangles().len(), pose.positions[0]);
 //! # Ok::<(), moving_mesh::MeshError>(())
 //! ```
 //!
-//! A mesh is read in its rest pose: glTF node transforms, default morph weights and skins are applied.
-//! Poses at other times have their place here and are not built yet. Knows no hair and no light.
+//! Knows no hair and no light.
 
+mod choice;
 mod error;
 mod gltf_file;
+mod loaded;
+mod moving_mesh;
 mod obj_file;
+mod options;
+mod part;
 mod pose;
+mod shape;
+mod skeleton;
+mod texture;
 mod triangle_mesh;
 
 pub use error::MeshError;
+pub use moving_mesh::MovingMesh;
+pub use options::{Animation, AnimationChoice, MeshOptions, RestPose};
+pub use part::Part;
 pub use pose::Pose;
+pub use skeleton::{Joint, Skeleton};
+pub use texture::TextureImage;
 pub use triangle_mesh::TriangleMesh;

@@ -1,17 +1,17 @@
-//! A mesh at one time.
+//! Where the vertices of a mesh are at one time.
 
 use glam::{DVec3, Vec3};
 
 use crate::TriangleMesh;
 
-/// Where the vertices of a mesh are at one time, in the mesh's units. Which triangles they make never changes.
+/// Positions, and normals when the mesh has them. Which triangles they make never changes.
 ///
-/// Positions are f64, so that a character far from the origin keeps its shape.
+/// Positions are `f64`: a character that stands far from the origin keeps its shape.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Pose {
-    /// Vertex positions.
+    /// One a vertex, in the mesh's own units, finite.
     pub positions: Vec<DVec3>,
-    /// Unit normals, one a vertex, where the file has them.
+    /// Of length 1 (zero where the surface has none), one a vertex, when the file has them for every vertex.
     pub normals: Option<Vec<Vec3>>,
 }
 

@@ -1,0 +1,78 @@
+//! What stays as it is while a mesh moves.
+
+use std::sync::Arc;
+
+use glam::{Vec2, Vec3};
+
+use crate::Part;
+use crate::error::Fault;
+use crate::texture::TextureSource;
+
+/// Triangles, texture coordinates and materials.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Shape {
+    pub(crate) triangles: Vec<[u32; 3]>,
+    pub(crate) vertex_count: usize,
+    /// One a vertex, 0 where a part has none.
+    pub(crate) uvs: Vec<Vec2>,
+    pub(crate) parts: Vec<Part>,
+}
+
+/// How a part looks.
+#[derive(Clone, Debug)]
+pub(crate) struct Look {
+    pub(crate) material: Option<String>,
+    pub(crate) base_color: Vec3,
+    pub(crate) texture: Option<Arc<TextureSource>>,
+}
+
+impl Default for Look {
+    fn default() -> Self {
+        Look { material: None, base_color: Vec3::ONE, texture: None }
+    }
+}
+
+impl Shape {
+    /// Adds a part of `vertices` vertices; `triangles` count its own from 0.
+    pub(crate) fn append(
+        &mut self,
+        name: String,
+        vertices: usize,
+        triangles: &[[u32; 3]],
+        uvs: Option<&[Vec2]>,
+        look: Look,
+    ) -> Result<(), Fault> {
+        if let Some((i, t)) =
+            triangles.iter().enumerate().find(|(_, t)| t.iter().any(|&v| v as usize >= vertices))
+        {
+            let fault = format!("vertex indices {t:?}, expected below the vertex count {vertices}");
+            return Err(Fault::invalid(format!("{name} triangle {i}"), fault));
+        }
+        let total = self.vertex_count.saturating_add(vertices);
+        u32::try_from(total).map_err(|_| Fault::Unsupported {
+            what: "a mesh of more than 4,294,967,295 vertices".into(),
+            remedy: "split it",
+        })?;
+        let (base, first) = (self.vertex_count as u32, self.triangles.len());
+        self.triangles.extend(triangles.iter().map(|t| t.map(|i| i + base)));
+        self.vertex_count = total;
+        self.uvs.extend(uvs.unwrap_or_default());
+        self.uvs.resize(total, Vec2::ZERO);
+        self.parts.push(Part {
+            name,
+            material: look.material,
+            triangles: first..self.triangles.len(),
+            base_color: look.base_color,
+            has_uvs: uvs.is_some(),
+            texture: look.texture,
+        });
+        Ok(())
+    }
+
+    pub(crate) fn checked(self) -> Result<Self, Fault> {
+        if self.triangles.is_empty() {
+            return Err(Fault::invalid("mesh", "no triangles, expected at least one"));
+        }
+        Ok(self)
+    }
+}
