@@ -24,3 +24,14 @@ pub enum BindingError {
         expected: String,
     },
 }
+
+impl BindingError {
+    /// What was found at a place, and what would be right there.
+    pub(crate) fn invalid(
+        place: impl Into<String>,
+        found: impl Into<String>,
+        expected: impl Into<String>,
+    ) -> Self {
+        BindingError::Invalid { place: place.into(), found: found.into(), expected: expected.into() }
+    }
+}

@@ -4,6 +4,31 @@
 //! of the pose the strand was made for. At another pose the same place gives another frame, and the strand goes
 //! with it. Knows meshes by their triangles and poses, not by their files, and no light.
 
+mod bind_options;
+mod bind_report;
+mod binding;
+mod closest_point;
 mod error;
+mod handedness;
+mod rigid_carry;
+mod root;
+mod root_attributes;
+mod root_frame;
+mod root_frames;
+mod root_places;
+mod surface;
+mod surface_tree;
+mod topology;
+mod vertex_normals;
 
+pub use bind_options::{Beyond, BindBy, BindOptions};
+pub use bind_report::BindReport;
+pub use binding::Binding;
 pub use error::BindingError;
+pub use rigid_carry::carry_rigid;
+pub use root::Root;
+pub use root_attributes::ROOT_TRIANGLE;
+pub use root_frame::{RigidMotion, RootFrame};
+pub use root_frames::RootFrames;
+pub use surface::Surface;
+pub use topology::TopologyHash;

@@ -1,0 +1,189 @@
+//! Where on the surface every root belongs.
+
+use std::ops::Range;
+
+use glam::{DVec3, Vec2};
+use groom::{Attribute, Domain, Groom, Values, names};
+use rayon::prelude::*;
+
+use crate::root::place;
+use crate::root_frame::has_area;
+use crate::surface_tree::{Nearest, Search, SurfaceTree};
+use crate::{BindBy, BindingError, ROOT_TRIANGLE, Surface, closest_point};
+
+/// A place in a triangle.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Place {
+    pub(crate) triangle: u32,
+    pub(crate) barycentrics: DVec3,
+    pub(crate) found: Found,
+}
+
+/// How sure a place is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Found {
+    Surely,
+    /// Others would have done as well.
+    AmongOthers,
+    /// It is the nearest there is, and not what was asked for.
+    Nearby,
+}
+
+/// Strands that look for their place in one go: neighbours in a groom are mostly neighbours on the head.
+const BLOCK: usize = 256;
+
+/// How far apart two places of one texture coordinate are before they are two, in sizes of the mesh; and how far
+/// outside a triangle a coordinate may be and still be in it, in sizes of the texture.
+const APART: f64 = 1e-6;
+
+/// A place for every strand. There must be a triangle when there is a strand.
+pub(crate) fn find(groom: &Groom, surface: &Surface<'_>, by: BindBy) -> Result<Vec<Place>, BindingError> {
+    if groom.strand_count() == 0 {
+        return Ok(Vec::new());
+    }
+    let positions = &surface.rest.positions;
+    let corners = |triangle: u32| surface.corners(positions, triangle);
+    match by {
+        BindBy::Nearest => {
+            let tree = tree_of(surface, corners);
+            in_blocks(groom, |strand, search| {
+                let nearest = tree.nearest(root(groom, strand), search);
+                nearest.map(|n| from_nearest(n, Found::Surely)).ok_or_else(no_triangle)
+            })
+        }
+        BindBy::RootUv => by_uv(groom, surface),
+        BindBy::RootTriangle => {
+            let given = given_triangles(groom, surface.triangles.len())?;
+            in_blocks(groom, |strand, _| {
+                let (triangle, root) = (given[strand], root(groom, strand));
+                let on = closest_point::to_origin(corners(triangle).map(|p| p - root));
+                Ok(Place { triangle, barycentrics: on.barycentrics, found: Found::Surely })
+            })
+        }
+    }
+}
+
+fn from_nearest(nearest: Nearest, found: Found) -> Place {
+    Place { triangle: nearest.triangle, barycentrics: nearest.barycentrics, found }
+}
+
+fn no_triangle() -> BindingError {
+    BindingError::invalid("mesh", "no triangle", "one or more, to bind strands to")
+}
+
+/// The first point of a strand.
+pub(crate) fn root(groom: &Groom, strand: usize) -> DVec3 {
+    groom.positions()[groom.offsets()[strand] as usize].as_dvec3()
+}
+
+/// Asks for the place of every strand, in parallel.
+fn in_blocks(
+    groom: &Groom,
+    find: impl Fn(usize, &mut Search) -> Result<Place, BindingError> + Sync,
+) -> Result<Vec<Place>, BindingError> {
+    let count = groom.strand_count();
+    let block = |number: usize| -> Range<usize> { number * BLOCK..((number + 1) * BLOCK).min(count) };
+    let blocks: Result<Vec<Vec<Place>>, BindingError> = (0..count.div_ceil(BLOCK))
+        .into_par_iter()
+        .map(|number| {
+            let mut search = Search::default();
+            block(number).map(|strand| find(strand, &mut search)).collect()
+        })
+        .collect();
+    Ok(blocks?.concat())
+}
+
+/// The tree over the triangles that have an area; over all when none has. Strands on a triangle without one would
+/// have no frame, and such triangles lie on the edges of others.
+fn tree_of(surface: &Surface<'_>, corners: impl Fn(u32) -> [DVec3; 3]) -> SurfaceTree {
+    let at_rest = |triangle| surface.corners(&surface.rest.positions, triangle);
+    let all = 0..surface.triangles.len() as u32;
+    let mut sound: Vec<u32> = all.clone().filter(|&triangle| has_area(at_rest(triangle))).collect();
+    if sound.is_empty() {
+        sound = all.collect();
+    }
+    SurfaceTree::new(sound.into_iter().map(|triangle| (corners(triangle), triangle)).collect())
+}
+
+fn by_uv(groom: &Groom, surface: &Surface<'_>) -> Result<Vec<Place>, BindingError> {
+    let expected = "one a vertex, to bind by";
+    let uvs = surface.uvs.ok_or_else(|| BindingError::invalid("mesh", "no texture coordinates", expected))?;
+    if let Some(vertex) = uvs.iter().position(|uv| !uv.is_finite()) {
+        let place = format!("texture coordinate {vertex}");
+        return Err(BindingError::invalid(place, uvs[vertex].to_string(), "finite numbers"));
+    }
+    let given = given_uvs(groom)?;
+    let flat = |uv: Vec2| uv.as_dvec2().extend(0.0);
+    let in_texture = |triangle: u32| surface.triangles[triangle as usize].map(|v| flat(uvs[v as usize]));
+    let tree = tree_of(surface, in_texture);
+    let positions = &surface.rest.positions;
+    let (in_texture, in_space) = (APART * tree.size(), APART * surface.size());
+    in_blocks(groom, |strand, search| {
+        let (uv, root) = (flat(given[strand]), root(groom, strand));
+        let nearest = tree.nearest(uv, search).ok_or_else(no_triangle)?;
+        let distance = nearest.distance_squared.sqrt();
+        let mut found: Vec<(f64, u32, DVec3, Nearest)> = tree
+            .within(uv, distance + in_texture, search)
+            .into_iter()
+            .map(|n| {
+                let at = place(surface.corners(positions, n.triangle), n.barycentrics);
+                (at.distance_squared(root), n.triangle, at, n)
+            })
+            .collect();
+        found.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let Some(&(_, _, at, best)) = found.first() else { return Ok(from_nearest(nearest, Found::Nearby)) };
+        let others = found.iter().any(|other| other.2.distance(at) > in_space);
+        Ok(match (distance > in_texture, others) {
+            (true, _) => from_nearest(best, Found::Nearby),
+            (false, true) => from_nearest(best, Found::AmongOthers),
+            (false, false) => from_nearest(best, Found::Surely),
+        })
+    })
+}
+
+/// The `root_uv` of every strand.
+fn given_uvs(groom: &Groom) -> Result<Vec<Vec2>, BindingError> {
+    let expected = "one vec2 a strand, to bind by";
+    let given = match groom.attribute(names::ROOT_UV) {
+        Some(Attribute { domain: Domain::Strand, values: Values::Vec2(uvs) }) => uvs.clone(),
+        Some(Attribute { domain: Domain::Vertex, values: Values::Vec2(uvs) }) => {
+            groom.offsets()[..groom.strand_count()].iter().map(|&first| uvs[first as usize]).collect()
+        }
+        other => return Err(missing(names::ROOT_UV, other, expected)),
+    };
+    match given.iter().position(|uv| !uv.is_finite()) {
+        Some(strand) => {
+            let found = format!("{} {}", names::ROOT_UV, given[strand]);
+            Err(BindingError::invalid(format!("strand {strand}"), found, "finite numbers"))
+        }
+        None => Ok(given),
+    }
+}
+
+/// The triangle that every strand names.
+fn given_triangles(groom: &Groom, count: usize) -> Result<Vec<u32>, BindingError> {
+    let given = match groom.attribute(ROOT_TRIANGLE) {
+        Some(Attribute { domain: Domain::Strand, values: Values::Int(given) }) => given,
+        other => return Err(missing(ROOT_TRIANGLE, other, "one int a strand, to bind by")),
+    };
+    let checked = given.iter().enumerate().map(|(strand, &triangle)| match u32::try_from(triangle) {
+        Ok(known) if (known as usize) < count => Ok(known),
+        _ => {
+            let found = format!("{ROOT_TRIANGLE} {triangle}");
+            Err(BindingError::invalid(
+                format!("strand {strand}"),
+                found,
+                format!("0 or more, less than {count}"),
+            ))
+        }
+    });
+    checked.collect()
+}
+
+fn missing(name: &str, found: Option<&Attribute>, expected: &str) -> BindingError {
+    let found = match found {
+        None => "not there".to_owned(),
+        Some(other) => format!("{} per {:?}", other.values.type_name(), other.domain).to_lowercase(),
+    };
+    BindingError::invalid(format!("attribute `{name}`"), found, expected)
+}

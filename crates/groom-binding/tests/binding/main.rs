@@ -1,0 +1,8 @@
+//! Binding and rigid carry.
+
+#![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
+
+mod laws;
+mod places;
+mod shapes;
+mod unsound;
