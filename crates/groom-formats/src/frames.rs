@@ -15,25 +15,85 @@ pub type Frames = Box<dyn Iterator<Item = Result<Frame, FormatError>>>;
 ///
 /// # Errors
 /// [`FormatError`], which names the file and the place in it; also for formats that hold no motion.
-#[allow(unused_variables)] // with features off
 pub fn read_frames(path: &Path, options: &ReadOptions) -> Result<(Loaded, Frames), FormatError> {
+    let MovingGroom { still, motion, .. } = read_moving(path, options)?;
+    let mut times = still.times.clone().into_iter();
+    let frames = std::iter::from_fn(move || {
+        let frame = motion.at(times.next()?);
+        if frame.is_err() {
+            // After an error there is no other frame.
+            times = Vec::new().into_iter();
+        }
+        Some(frame)
+    });
+    Ok((still, Box::new(frames)))
+}
+
+/// Opens the groom at `path` for its positions at any time. The bytes of the file stay in memory; of its frames,
+/// none does.
+///
+/// # Errors
+/// As [`read_frames`].
+#[allow(unused_variables)] // with features off
+pub fn read_moving(path: &Path, options: &ReadOptions) -> Result<MovingGroom, FormatError> {
     let name = path.display().to_string();
     let unknown = || FormatError::UnknownFormat { file: name.clone(), expected: read::endings(holds_motion) };
     let format = Format::from_path(path).filter(|&format| holds_motion(format)).ok_or_else(unknown)?;
     let bytes = std::fs::read(path).map_err(|error| FormatError::io(&name, error))?;
-    match format.sniff(&bytes) {
+    let format = format.sniff(&bytes);
+    let (still, motion): (Loaded, Box<dyn AtTime + Send>) = match format {
         #[cfg(any(feature = "usda", feature = "usdc", feature = "usdz"))]
-        format @ (Format::Usda | Format::Usdc | Format::Usdz) => {
-            let (loaded, frames) = crate::usd::read::read_frames(bytes, format, &name, options)?;
-            Ok((loaded, Box::new(frames)))
+        Format::Usda | Format::Usdc | Format::Usdz => {
+            let (still, motion) = crate::usd::read::read_moving(bytes, format, &name, options)?;
+            (still, Box::new(motion))
         }
         #[cfg(feature = "alembic")]
         Format::Alembic => {
-            let (loaded, frames) = crate::alembic::read_frames(bytes, &name, options)?;
-            Ok((loaded, Box::new(frames)))
+            let (still, motion) = crate::alembic::read_moving(bytes, &name, options)?;
+            (still, Box::new(motion))
         }
-        _ => Err(unknown()),
+        _ => return Err(unknown()),
+    };
+    Ok(MovingGroom { name, still: Loaded { format: Some(format), ..still }, motion })
+}
+
+/// A groom in a file, with its positions at any time.
+pub struct MovingGroom {
+    name: String,
+    still: Loaded,
+    motion: Box<dyn AtTime + Send>,
+}
+
+impl MovingGroom {
+    /// The groom as it is at [`ReadOptions::time`], else at the first frame; [`Loaded::times`] are those of its
+    /// frames and [`Loaded::frame_rate`] makes seconds of them.
+    #[must_use]
+    pub fn still(&self) -> &Loaded {
+        &self.still
     }
+
+    /// Where the points of the groom are at `time`, in frames: linear between two frames, and so are velocities
+    /// and accelerations. Before the first and after the last frame those stay.
+    ///
+    /// # Errors
+    /// [`FormatError`]: `time` is not finite, or the file is broken there, or has other strands there.
+    pub fn at(&self, time: f64) -> Result<Frame, FormatError> {
+        if !time.is_finite() {
+            return Err(FormatError::invalid(&self.name, "time", time.to_string(), "a finite number"));
+        }
+        self.motion.at(time)
+    }
+}
+
+impl std::fmt::Debug for MovingGroom {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("MovingGroom").field("times", &self.still.times).finish_non_exhaustive()
+    }
+}
+
+/// What a reader of motion can do.
+pub(crate) trait AtTime {
+    fn at(&self, time: f64) -> Result<Frame, FormatError>;
 }
 
 fn holds_motion(format: Format) -> bool {

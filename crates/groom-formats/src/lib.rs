@@ -125,7 +125,7 @@ mod write;
 pub use animation::{Frame, MotionOptions, write_animation};
 pub use error::FormatError;
 pub use format::Format;
-pub use frames::{Frames, read_frames};
+pub use frames::{Frames, MovingGroom, read_frames, read_moving};
 pub use options::{Dialect, HairExtras, Loaded, Look, Mesh, ReadOptions, WriteOptions};
 pub use output::Output;
 pub use read::{read, read_from};

@@ -1,5 +1,6 @@
 //! What can be asked of readers and writers, and what comes back.
 
+use glam::DVec3;
 use groom::{Groom, UpAxis};
 
 use crate::{Format, Warning};
@@ -22,6 +23,9 @@ pub struct ReadOptions {
     /// points ([`Warning::CurvesCoarser`](crate::Warning::CurvesCoarser)). An error that is given is kept, with up
     /// to 256 points a span.
     pub curve_error: Option<f32>,
+    /// Leave positions relative to where the first curves of the file stand ([`Loaded::origin`]), so that those of
+    /// a character far away keep their precision (USD, Alembic).
+    pub keep_origin: bool,
     /// Which time of an animated file, in its frames (time codes); `None` is the first.
     pub time: Option<f64>,
 }
@@ -43,6 +47,9 @@ pub struct Loaded {
     pub times: Vec<f64>,
     /// Frames a second of an animated file.
     pub frame_rate: Option<f64>,
+    /// Where positions are measured from, in the groom's units; 0 unless [`ReadOptions::keep_origin`] asks for
+    /// another.
+    pub origin: DVec3,
 }
 
 impl Loaded {
@@ -57,6 +64,7 @@ impl Loaded {
             format: None,
             times: Vec::new(),
             frame_rate: None,
+            origin: DVec3::ZERO,
         }
     }
 }

@@ -9,12 +9,19 @@ const FREE: u64 = 1 << 20;
 /// equal arrays once, compress them and share values, so that a short one can ask for a long groom.
 #[derive(Debug)]
 pub(crate) struct Room {
+    all: u64,
     left: Cell<u64>,
 }
 
 impl Room {
     pub(crate) fn of(file: usize) -> Self {
-        Room { left: Cell::new((file as u64).saturating_mul(4).saturating_add(FREE)) }
+        let all = (file as u64).saturating_mul(4).saturating_add(FREE);
+        Room { all, left: Cell::new(all) }
+    }
+
+    /// As it was at first: what was taken is not needed any more.
+    pub(crate) fn refill(&self) {
+        self.left.set(self.all);
     }
 
     /// Takes room for `count` values of `size` bytes; what was found and expected when there is not as much left.

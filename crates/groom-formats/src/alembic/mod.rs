@@ -30,5 +30,5 @@ mod read;
 mod schema;
 mod write;
 
-pub(crate) use read::{read, read_frames};
+pub(crate) use read::{read, read_moving};
 pub(crate) use write::{write, write_animation};

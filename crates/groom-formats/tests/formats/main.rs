@@ -12,6 +12,7 @@ mod gltf;
 mod hair;
 mod lines_and_curves;
 mod monohair;
+mod motion;
 mod obj;
 mod pbrt;
 mod ply;

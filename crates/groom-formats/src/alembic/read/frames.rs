@@ -1,52 +1,40 @@
-//! Curves that move, frame by frame.
+//! Curves that move, at any time.
 
+use glam::DVec3;
 use ogawa::Archive;
 
 use super::scene::Scene;
 use super::{fault, load};
+use crate::frames::AtTime;
 use crate::polylines::Polylines;
 use crate::{FormatError, Frame, Loaded, ReadOptions};
 
-/// The groom at its first time, and its frames.
+/// The groom at its first time, and its motion.
 pub(crate) fn read(
     bytes: Vec<u8>,
     name: &str,
     options: &ReadOptions,
-) -> Result<(Loaded, Frames), FormatError> {
+) -> Result<(Loaded, Motion), FormatError> {
     let (loaded, cuts) = load(&bytes, name, options, options.time)?;
-    let times = loaded.times.clone().into_iter();
-    let (name, options) = (name.to_owned(), options.clone());
-    Ok((loaded, Frames { bytes, name, options, cuts, times }))
+    let (name, options, origin) = (name.to_owned(), options.clone(), loaded.origin);
+    Ok((loaded, Motion { bytes, name, options, cuts, origin }))
 }
 
-/// The frames, one in memory at a time.
-pub(crate) struct Frames {
+/// An archive, and how its curves were cut.
+pub(crate) struct Motion {
     bytes: Vec<u8>,
     name: String,
     options: ReadOptions,
     cuts: Vec<Polylines>,
-    times: std::vec::IntoIter<f64>,
+    origin: DVec3,
 }
 
-impl Iterator for Frames {
-    type Item = Result<Frame, FormatError>;
-
-    fn next(&mut self) -> Option<Self::Item> {
-        let time = self.times.next()?;
-        let frame = self.frame(time);
-        if frame.is_err() {
-            // After an error there is no other frame.
-            self.times = Vec::new().into_iter();
-        }
-        Some(frame)
-    }
-}
-
-impl Frames {
+impl AtTime for Motion {
     /// Opens the archive anew: that looks at its tree and at no array but this frame's.
-    fn frame(&self, time: f64) -> Result<Frame, FormatError> {
+    fn at(&self, time: f64) -> Result<Frame, FormatError> {
         let archive = Archive::new(&self.bytes).map_err(|error| fault(&self.name, "", error))?;
-        let scene = Scene::new(&archive, &self.name, self.bytes.len(), Some(time))?;
+        let mut scene = Scene::new(&archive, &self.name, self.bytes.len(), Some(time))?;
+        scene.origin = self.origin;
         scene.frame(time, &self.options, &self.cuts)
     }
 }

@@ -17,7 +17,7 @@ use self::scene::Scene;
 use crate::polylines::Polylines;
 use crate::{FormatError, Loaded, ReadOptions};
 
-pub(crate) use self::frames::read as read_frames;
+pub(crate) use self::frames::read as read_moving;
 
 pub(crate) fn read(bytes: &[u8], name: &str, options: &ReadOptions) -> Result<Loaded, FormatError> {
     Ok(load(bytes, name, options, options.time)?.0)
@@ -31,7 +31,10 @@ fn load(
     time: Option<f64>,
 ) -> Result<(Loaded, Vec<Polylines>), FormatError> {
     let archive = Archive::new(bytes).map_err(|error| fault(name, "", error))?;
-    let scene = Scene::new(&archive, name, bytes.len(), time)?;
+    let mut scene = Scene::new(&archive, name, bytes.len(), time)?;
+    if options.keep_origin {
+        scene.keep_origin()?;
+    }
     scene.load(options)
 }
 

@@ -1,6 +1,6 @@
 //! All curves of an archive as one groom.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use groom::{Attribute, Domain, UpAxis, Values, names};
 use ogawa::{Archive, CompoundReader, OgawaError};
 
@@ -22,6 +22,8 @@ pub(super) struct Scene<'a> {
     samples: Samples,
     /// When points or what moves them change, in frames.
     pub(super) times: Vec<f64>,
+    /// Where positions are measured from.
+    pub(super) origin: DVec3,
 }
 
 impl<'a> Scene<'a> {
@@ -39,7 +41,16 @@ impl<'a> Scene<'a> {
         }
         let samples = Samples::new(Clock::new(archive), time, file_len);
         let times = times(&tree, &samples).map_err(error)?;
-        Ok(Scene { file, tree, samples, times })
+        Ok(Scene { file, tree, samples, times, origin: DVec3::ZERO })
+    }
+
+    /// Measures positions from where the first curves stand.
+    pub(super) fn keep_origin(&mut self) -> Result<(), FormatError> {
+        if let Some(&(node, _)) = self.tree.curves.first() {
+            let world = world_from_node(&self.tree, node, &self.samples);
+            self.origin = world.map_err(|error| self.fault(0, error))?.w_axis.truncate();
+        }
+        Ok(())
     }
 
     pub(super) fn load(&self, options: &ReadOptions) -> Result<(Loaded, Vec<Polylines>), FormatError> {
@@ -87,7 +98,7 @@ impl<'a> Scene<'a> {
         groom.meters_per_unit = options.meters_per_unit.or(space.1).unwrap_or(1.0);
         let repairs = if options.repair { groom.repair() } else { Vec::new() };
         let repairs = repairs.iter().map(ToString::to_string).collect();
-        let mut loaded = Loaded { warnings, repairs, ..Loaded::still(groom) };
+        let mut loaded = Loaded { warnings, repairs, origin: self.origin, ..Loaded::still(groom) };
         if self.times.len() > 1 {
             loaded.times.clone_from(&self.times);
             loaded.frame_rate = Some(self.samples.clock.frame_rate);
@@ -129,7 +140,8 @@ impl<'a> Scene<'a> {
     ) -> Result<Curves<'a>, FormatError> {
         let (node, geometry) = self.tree.curves[index];
         let read = || {
-            let world = world_from_node(&self.tree, node, &self.samples)?;
+            let mut world = world_from_node(&self.tree, node, &self.samples)?;
+            world.w_axis -= self.origin.extend(0.0);
             Curves::read(geometry, &self.samples, options.curve_error, world, like)
         };
         read().map_err(|error| self.fault(index, error))

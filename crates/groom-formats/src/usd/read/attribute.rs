@@ -83,9 +83,12 @@ fn velocity<B: AsRef<[u8]>>(
     Ok(velocity)
 }
 
-/// The velocities of the strands' points.
-pub(super) fn velocities<B: AsRef<[u8]>>(curves: &Curves<'_, B>) -> Result<Option<Vec<Vec3>>, FormatError> {
-    let Some(attribute) = curves.prim.attribute("velocities") else { return Ok(None) };
+/// Velocities or accelerations of the strands' points.
+pub(super) fn rate<B: AsRef<[u8]>>(
+    curves: &Curves<'_, B>,
+    name: &str,
+) -> Result<Option<Vec<Vec3>>, FormatError> {
+    let Some(attribute) = curves.prim.attribute(name) else { return Ok(None) };
     Ok(match velocity(curves, attribute, &mut Vec::new())? {
         Some(Attribute { domain: Domain::Vertex, values: Values::Vec3(values) }) => Some(values),
         _ => None,

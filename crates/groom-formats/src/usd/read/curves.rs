@@ -12,7 +12,7 @@ use crate::polylines::{Polylines, Shape, Wrap};
 
 /// The curves of a prim at a time.
 pub(super) struct Curves<'s, B> {
-    pub(super) stage: &'s Stage<'s, B>,
+    pub(super) stage: &'s Stage<B>,
     pub(super) prim: &'s Prim,
     pub(super) path: &'s str,
     pub(super) time: Option<f64>,
@@ -26,14 +26,14 @@ impl<'s, B: AsRef<[u8]>> Curves<'s, B> {
     /// The curves and the points of their strands; `like` is how they were cut at another time, which must
     /// fit.
     pub(super) fn read(
-        stage: &'s Stage<'s, B>,
+        stage: &'s Stage<B>,
         place: &'s Place,
         time: Option<f64>,
         like: Option<&Polylines>,
     ) -> Result<(Self, Vec<Vec3>), FormatError> {
-        let error = |fault: Fault| fault.into_error(stage.context.file, &place.path);
+        let error = |fault: Fault| fault.into_error(&stage.context.file, &place.path);
         let Some(prim) = stage.chain(place).last() else {
-            return Err(FormatError::invalid(stage.context.file, &*place.path, "no prim", "one"));
+            return Err(FormatError::invalid(&stage.context.file, &*place.path, "no prim", "one"));
         };
         let points = match prim.attribute("points").map(|points| values::at(&stage.layer, points, time)) {
             Some(points) => match points.map_err(error)? {
@@ -121,7 +121,7 @@ impl<'s, B: AsRef<[u8]>> Curves<'s, B> {
 
     /// A value that is wrong.
     pub(super) fn error(&self, fault: Fault) -> FormatError {
-        fault.into_error(self.stage.context.file, self.path)
+        fault.into_error(&self.stage.context.file, self.path)
     }
 }
 

@@ -11,11 +11,11 @@ use crate::polylines::Polylines;
 use crate::{FormatError, Warning};
 
 pub(super) fn merge<B: AsRef<[u8]>>(
-    stage: &Stage<'_, B>,
+    stage: &Stage<B>,
     time: Option<f64>,
     warnings: &mut Vec<Warning>,
 ) -> Result<(Groom, Vec<Polylines>), FormatError> {
-    let file = stage.context.file;
+    let file = &*stage.context.file;
     let (mut parts, mut cuts) = (Vec::new(), Vec::new());
     let mut positions: Vec<Vec3> = Vec::new();
     for place in &stage.curves {

@@ -36,7 +36,7 @@ use crate::polylines::Polylines;
 use crate::room::Room;
 use crate::{Format, FormatError, Loaded, ReadOptions, Warning};
 
-pub(crate) use frames::read as read_frames;
+pub(crate) use frames::read as read_moving;
 
 /// Metres a unit has in a stage that does not say.
 const METERS_PER_UNIT: f64 = 0.01;
@@ -55,24 +55,28 @@ pub(crate) fn read(
 }
 
 /// What is asked of curves everywhere.
-pub(crate) struct Context<'a> {
-    pub(crate) file: &'a str,
+pub(crate) struct Context {
+    pub(crate) file: String,
     pub(crate) format: Format,
     pub(crate) curve_error: Option<f32>,
     /// What the groom, or one frame of it, may take.
     pub(crate) room: Room,
 }
 
-fn open<'n, B: AsRef<[u8]>>(
+fn open<B: AsRef<[u8]>>(
     bytes: B,
     format: Format,
-    name: &'n str,
+    name: &str,
     options: &ReadOptions,
-) -> Result<stage::Stage<'n, B>, FormatError> {
+) -> Result<stage::Stage<B>, FormatError> {
     let layer = Layer::read(bytes).map_err(|error| broken(name, &error))?;
     let room = Room::of(layer.bytes().as_ref().len());
-    let context = Context { file: name, format, curve_error: options.curve_error, room };
-    stage::Stage::new(layer, context)
+    let context = Context { file: name.to_owned(), format, curve_error: options.curve_error, room };
+    let mut stage = stage::Stage::new(layer, context)?;
+    if options.keep_origin {
+        stage.keep_origin(stage.start(options.time))?;
+    }
+    Ok(stage)
 }
 
 fn broken(name: &str, error: &ReadError) -> FormatError {
@@ -81,7 +85,7 @@ fn broken(name: &str, error: &ReadError) -> FormatError {
 
 /// The groom at a time, and how its curves were sampled.
 fn load<B: AsRef<[u8]>>(
-    stage: &stage::Stage<'_, B>,
+    stage: &stage::Stage<B>,
     time: Option<f64>,
     options: &ReadOptions,
 ) -> Result<(Loaded, Vec<Polylines>), FormatError> {
@@ -103,7 +107,7 @@ fn load<B: AsRef<[u8]>>(
         options.meters_per_unit.or_else(|| number("metersPerUnit")).unwrap_or(METERS_PER_UNIT);
     let repairs = if options.repair { groom.repair() } else { Vec::new() };
     let repairs = repairs.iter().map(ToString::to_string).collect();
-    let mut loaded = Loaded { warnings, repairs, ..Loaded::still(groom) };
+    let mut loaded = Loaded { warnings, repairs, origin: stage.origin, ..Loaded::still(groom) };
     if stage.times.len() > 1 {
         let rate = number("timeCodesPerSecond").or_else(|| number("framesPerSecond"));
         loaded.frame_rate = Some(rate.unwrap_or(TIME_CODES_PER_SECOND));

@@ -1,6 +1,6 @@
 //! The curves of a stage and where they stand.
 
-use glam::DMat4;
+use glam::{DMat4, DVec3};
 use usd_layer::{Layer, Prim, Specifier, Value};
 
 use super::{Context, xform};
@@ -10,14 +10,16 @@ use crate::FormatError;
 const ARCS: [&str; 4] = ["references", "payload", "inherits", "specializes"];
 
 /// A stage of one layer.
-pub(super) struct Stage<'n, B> {
+pub(super) struct Stage<B> {
     pub(super) layer: Layer<B>,
-    pub(super) context: Context<'n>,
+    pub(super) context: Context,
     pub(super) curves: Vec<Place>,
     /// Times at which something about the curves' points is given, rising.
     pub(super) times: Vec<f64>,
     /// How many prims, and sublayers, pull in what is not followed.
     pub(super) composed: usize,
+    /// Where positions are measured from.
+    pub(super) origin: DVec3,
 }
 
 /// Where a prim is.
@@ -29,9 +31,10 @@ pub(super) struct Place {
     indices: Vec<usize>,
 }
 
-impl<'n, B: AsRef<[u8]>> Stage<'n, B> {
-    pub(super) fn new(layer: Layer<B>, context: Context<'n>) -> Result<Self, FormatError> {
-        let mut stage = Stage { layer, context, curves: Vec::new(), times: Vec::new(), composed: 0 };
+impl<B: AsRef<[u8]>> Stage<B> {
+    pub(super) fn new(layer: Layer<B>, context: Context) -> Result<Self, FormatError> {
+        let mut stage =
+            Stage { layer, context, curves: Vec::new(), times: Vec::new(), composed: 0, origin: DVec3::ZERO };
         let mut found = Found::default();
         if let Some(Value::List(layers)) = stage.layer.metadata("subLayers") {
             found.composed += layers.items().count();
@@ -47,7 +50,7 @@ impl<'n, B: AsRef<[u8]>> Stage<'n, B> {
                 (_, 1..) => ("no BasisCurves prim but guides", "one whose purpose is not `guide`"),
                 _ => ("no BasisCurves prim", "at least one that is defined and active"),
             };
-            return Err(FormatError::invalid(stage.context.file, "/", found, expected));
+            return Err(FormatError::invalid(&stage.context.file, "/", found, expected));
         }
         stage.times = stage.moving_times();
         Ok(stage)
@@ -83,13 +86,24 @@ impl<'n, B: AsRef<[u8]>> Stage<'n, B> {
         })
     }
 
-    /// From the space of the prim at `place` to the stage's.
+    /// Measures positions from where the first curves stand at a time.
+    pub(super) fn keep_origin(&mut self, time: Option<f64>) -> Result<(), FormatError> {
+        if let Some(first) = self.curves.first() {
+            self.origin = self.world_from_prim(first, time)?.w_axis.truncate();
+        }
+        Ok(())
+    }
+
+    /// From the space of the prim at `place` to the stage's, or to the origin that is kept.
     pub(super) fn world_from_prim(&self, place: &Place, time: Option<f64>) -> Result<DMat4, FormatError> {
         let mut world = DMat4::IDENTITY;
         for prim in self.chain(place) {
             let (local, resets) = xform::parent_from_prim(&self.layer, prim, time)
-                .map_err(|fault| fault.into_error(self.context.file, &place.path))?;
+                .map_err(|fault| fault.into_error(&self.context.file, &place.path))?;
             world = if resets { local } else { world * local };
+        }
+        if self.origin != DVec3::ZERO {
+            world.w_axis -= self.origin.extend(0.0);
         }
         Ok(world)
     }
