@@ -1,4 +1,4 @@
-//! Procedural heads of hair: straight, wavy and curly.
+//! Procedural heads of hair: straight, wavy and curly; and coats of fur on any surface.
 //!
 //! Made for tests and demonstrations: hair that is nobody's property, of any size, the same bits for
 //! the same options on every machine. The head is an ellipsoid about 20 cm tall around the origin,
@@ -14,14 +14,20 @@
 //! ```
 
 mod dress;
+mod fur;
+mod fur_options;
 mod grow;
 mod hair;
 mod head;
 mod mesh;
 mod nodding_head;
 mod options;
+mod scatter;
 mod trigonometry;
+mod tufts;
 
+pub use fur::fur_on;
+pub use fur_options::{FurOptions, FurSurface};
 pub use hair::hair;
 pub use head::HEAD_RADII;
 pub use mesh::head_obj;

@@ -87,6 +87,26 @@ pub enum SampleError {
         /// The range it must lie in.
         expected: &'static str,
     },
+    /// An option that is no whole number is out of its range.
+    #[error("{what} is {found}, expected {expected}")]
+    Number {
+        /// The option.
+        what: &'static str,
+        /// Its value.
+        found: String,
+        /// The range it must lie in.
+        expected: &'static str,
+    },
+    /// Nothing can grow on the surface.
+    #[error("surface, {place}: {found}, expected {expected}")]
+    Surface {
+        /// Where: vertex, triangle, or all of it.
+        place: String,
+        /// What was found there.
+        found: String,
+        /// What would be right.
+        expected: &'static str,
+    },
     /// The groom could not be put together.
     #[error(transparent)]
     Groom(#[from] GroomError),

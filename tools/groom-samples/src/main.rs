@@ -1,20 +1,22 @@
-//! Makes straight, wavy and curly heads of hair.
+//! Makes straight, wavy and curly heads of hair, and fur on any mesh.
 
 mod arrays;
+mod fur;
 mod hair_file;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 
 use anyhow::Context;
 use clap::{Args, Parser, Subcommand};
 use command_line::Outcome;
+use cyhair::HairFile;
 use groom_samples::{Options, Style};
 use whole_file::WholeFile;
 
 use crate::arrays::Arrays;
 
-/// Makes straight, wavy and curly heads of hair, and the head they grow on.
+/// Makes straight, wavy and curly heads of hair, the head they grow on, and fur on any mesh.
 ///
 /// Hair is written as a HAIR (cyHair) file: metres, y up, face towards +z. The same options give the
 /// same bytes on every machine. Exit codes: 0 made, 2 could not.
@@ -41,6 +43,8 @@ enum Command {
         #[arg(short, long, value_name = "FILE.glb")]
         output: PathBuf,
     },
+    /// Grows fur on a mesh, in its rest pose
+    Fur(fur::FurArgs),
 }
 
 #[derive(Args)]
@@ -75,6 +79,7 @@ fn main() -> ExitCode {
             (Some(Command::NoddingHead { output }), _) => {
                 whole_file::write_whole(output, &groom_samples::nodding_head_glb())?;
             }
+            (Some(Command::Fur(args)), _) => fur::make(&args)?,
             (None, Some(args)) => make_hair(&args)?,
             (None, None) => anyhow::bail!("nothing to make; see --help"),
         }
@@ -95,7 +100,11 @@ fn make_hair(args: &HairArgs) -> anyhow::Result<()> {
     let groom = groom_samples::hair(&options)?;
     let info = format!("groomkit {} sample, seed {}; metres, y up", args.style, args.seed);
     let file = hair_file::from_groom(&groom, args.arrays, &info);
-    let mut output = WholeFile::create(&args.output)?;
-    file.write(&mut output).with_context(|| format!("cannot write {}", args.output.display()))?;
+    write_hair(&file, &args.output)
+}
+
+fn write_hair(file: &HairFile, path: &Path) -> anyhow::Result<()> {
+    let mut output = WholeFile::create(path)?;
+    file.write(&mut output).with_context(|| format!("cannot write {}", path.display()))?;
     Ok(output.commit()?)
 }
