@@ -103,9 +103,10 @@ fn farthest(from: &[u32], place: impl Fn(u32) -> DVec3, count: usize) -> Vec<u32
 fn flatness(places: &[DVec3]) -> f64 {
     let Some(&first) = places.first() else { return 0.0 };
     let far = |measure: &dyn Fn(DVec3) -> f64| {
-        places.iter().map(|&p| (measure(p - first), p - first)).fold((0.0, DVec3::ZERO), |most, next| {
-            if next.0 > most.0 { next } else { most }
-        })
+        places
+            .iter()
+            .map(|&p| (measure(p - first), p - first))
+            .fold((0.0, DVec3::ZERO), |most, next| if next.0 > most.0 { next } else { most })
     };
     let (width, along) = far(&|d| d.length());
     let along = along.normalize_or_zero();

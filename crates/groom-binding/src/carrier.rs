@@ -141,7 +141,8 @@ impl<'a> Carrier<'a> {
             anchors: self.anchors(),
             ..CarryReport::default()
         };
-        let kinds: Vec<u8> = (0..self.groom.strand_count()).map(|strand| self.kind(&stills, stencil, strand)).collect();
+        let kinds: Vec<usize> =
+            (0..self.groom.strand_count()).map(|strand| self.kind(&stills, stencil, strand)).collect();
         report.teleported = kinds.iter().filter(|&&kind| kind != 0).count();
         out.prepare(self.groom.point_count(), accelerations);
         if self.is_linear() {
@@ -184,7 +185,7 @@ impl Carrier<'_> {
     }
 
     /// Which of [`jumps::rates`] is a strand's.
-    fn kind(&self, stills: &[Still; 3], stencil: &Stencil, strand: usize) -> u8 {
+    fn kind(&self, stills: &[Still; 3], stencil: &Stencil, strand: usize) -> usize {
         let [a, b, c] = stills;
         let roots = [a, b, c].map(|still| still.frames[strand].origin);
         let [first, second] = jumps::jumps(roots, stencil.step(), self.options.teleport);
@@ -199,7 +200,7 @@ impl Carrier<'_> {
         rounded: impl Fn(DVec3) -> T + Sync,
         by: impl Fn(usize) -> ([Part; N], Option<[&'d Deformation; N]>) + Sync,
     ) {
-        each_strand(self.groom, out, |strand, own| {
+        each_strand(self.groom, out, |strand, mut own| {
             let (parts, deformations) = by(strand);
             let bend = self.bending.as_ref().zip(deformations).map(|(bending, deformations)| {
                 let weights = &bending.weights[self.groom.strand_range(strand)];
@@ -215,7 +216,7 @@ impl Carrier<'_> {
     }
 
     /// Positions and rates that are linear in the motions.
-    fn linear(&self, stills: &[Still; 3], stencil: &Stencil, kinds: &[u8], out: &mut Moved) {
+    fn linear(&self, stills: &[Still; 3], stencil: &Stencil, kinds: &[usize], out: &mut Moved) {
         let (at, rates) = (stencil.at(), jumps::rates(stencil));
         let [a, b, c] = stills;
         let deformations = match [a, b, c].map(|still| still.deformation.as_ref()) {
@@ -224,12 +225,12 @@ impl Carrier<'_> {
         };
         let parts = |strand: usize| {
             let motions = [a, b, c].map(|still| self.motion(still, strand));
-            let rate = &rates[usize::from(kinds[strand])];
+            let rate = &rates[kinds[strand]];
             let place = Part { turn: motions[at].turn, to: motions[at].to - self.options.origin };
-            [place, Part::combined(&motions, rate.first), Part::combined(&motions, rate.second)]
+            [place, Part::rate(&motions, rate.first), Part::rate(&motions, rate.second)]
         };
         let bends = |strand: usize| {
-            let kind = usize::from(kinds[strand]);
+            let kind = kinds[strand];
             deformations.as_ref().map(|d| [&d.at, &d.first[kind], &d.second[kind]])
         };
         let rounded = |place: DVec3| place.as_vec3();
@@ -249,10 +250,14 @@ impl Carrier<'_> {
     fn bent(&self, still: &Still, pose: &Pose) -> (Vec<DVec3>, Pushed) {
         let mut places = vec![DVec3::ZERO; self.groom.point_count()];
         let deformations = still.deformation.as_ref().map(|deformation| [deformation]);
-        self.go([&mut places], |place| place, |strand| {
-            let motion = self.motion(still, strand);
-            ([Part { turn: motion.turn, to: motion.to }], deformations)
-        });
+        self.go(
+            [&mut places],
+            |place| place,
+            |strand| {
+                let motion = self.motion(still, strand);
+                ([Part { turn: motion.turn, to: motion.to }], deformations)
+            },
+        );
         if self.bending.as_ref().is_some_and(|bending| bending.restore_lengths) {
             each_strand(self.groom, [&mut places], |strand, [own]| {
                 segment_lengths::restore(own, self.groom.strand(strand));
@@ -266,7 +271,7 @@ impl Carrier<'_> {
     }
 
     /// Positions and rates as differences of points.
-    fn differences(&self, places: [&[DVec3]; 3], stencil: &Stencil, kinds: &[u8], out: &mut Moved) {
+    fn differences(&self, places: [&[DVec3]; 3], stencil: &Stencil, kinds: &[usize], out: &mut Moved) {
         let (at, rates) = (stencil.at(), jumps::rates(stencil));
         let mut none = Vec::new();
         let accelerations = match &mut out.accelerations {
@@ -278,11 +283,12 @@ impl Carrier<'_> {
         };
         let out = [&mut out.positions[..], &mut out.velocities, accelerations];
         each_strand(self.groom, out, |strand, [positions, velocities, accelerations]| {
-            let rate = &rates[usize::from(kinds[strand])];
+            let rate = &rates[kinds[strand]];
             let range = self.groom.strand_range(strand);
             for (i, point) in range.enumerate() {
                 let three = places.map(|places| places[point]);
-                let sum = |by: [f64; 3]| (three[0] * by[0] + three[1] * by[1] + three[2] * by[2]).as_vec3();
+                let (before, after) = (three[0] - three[1], three[2] - three[1]);
+                let sum = |by: [f64; 3]| (before * by[0] + after * by[2]).as_vec3();
                 positions[i] = (three[at] - self.options.origin).as_vec3();
                 velocities[i] = sum(rate.first);
                 accelerations[i] = sum(rate.second);

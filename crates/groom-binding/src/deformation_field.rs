@@ -117,16 +117,11 @@ impl Deformation {
         Deformation { linear, weights: wide(&exact), exact }
     }
 
-    /// The sum of deformations, each times a number: with a stencil's weights, the rate of change.
-    pub(crate) fn combined(parts: [&Deformation; 3], by: [f64; 3]) -> Deformation {
-        let mut linear = DMat3::ZERO;
-        let mut exact = vec![DVec3::ZERO; parts[0].exact.len()];
-        for (part, by) in parts.into_iter().zip(by) {
-            linear += part.linear * by;
-            for (sum, &weight) in exact.iter_mut().zip(&part.exact) {
-                *sum += weight * by;
-            }
-        }
+    /// The rate of change of deformations, by weights that sum to nothing.
+    pub(crate) fn rate([a, b, c]: [&Deformation; 3], by: [f64; 3]) -> Deformation {
+        let linear = (a.linear - b.linear) * by[0] + (c.linear - b.linear) * by[2];
+        let three = a.exact.iter().zip(&b.exact).zip(&c.exact);
+        let exact = three.map(|((&a, &b), &c)| (a - b) * by[0] + (c - b) * by[2]).collect();
         Deformation::new(linear, exact)
     }
 }
@@ -182,7 +177,8 @@ mod tests {
     fn it_passes_through_its_anchors() {
         let (rest, triangles) = ball(60);
         let field = DeformationField::new(&rest, &triangles, 60).unwrap();
-        let bent: Vec<DVec3> = rest.iter().map(|p| dvec3(p.x + 0.3 * p.y * p.y, p.y * (1.0 + 0.1 * p.z), p.z)).collect();
+        let bent: Vec<DVec3> =
+            rest.iter().map(|p| dvec3(p.x + 0.3 * p.y * p.y, p.y * (1.0 + 0.1 * p.z), p.z)).collect();
         let deformation = field.at(&bent);
         for (before, after) in rest.iter().zip(&bent) {
             let moved = difference(&field, &deformation, rest[0], *before);
@@ -194,7 +190,8 @@ mod tests {
     fn affine_motions_need_no_bending_however_far_away() {
         let (rest, triangles) = ball(80);
         let field = DeformationField::new(&rest, &triangles, 50).unwrap();
-        let matrix = DMat3::from_quat(DQuat::from_rotation_y(1.1)) * DMat3::from_diagonal(dvec3(2.0, 1.0, 0.5));
+        let matrix =
+            DMat3::from_quat(DQuat::from_rotation_y(1.1)) * DMat3::from_diagonal(dvec3(2.0, 1.0, 0.5));
         for away in [DVec3::ZERO, DVec3::splat(1e6)] {
             let posed: Vec<DVec3> = rest.iter().map(|&p| matrix * p + away).collect();
             let deformation = field.at(&posed);

@@ -55,8 +55,8 @@ impl Deformations {
     pub(crate) fn new(poses: [&Deformation; 3], at: usize, rates: &[Rate; 4]) -> Self {
         Deformations {
             at: poses[at].clone(),
-            first: rates.map(|rate| Deformation::combined(poses, rate.first)),
-            second: rates.map(|rate| Deformation::combined(poses, rate.second)),
+            first: rates.map(|rate| Deformation::rate(poses, rate.first)),
+            second: rates.map(|rate| Deformation::rate(poses, rate.second)),
         }
     }
 }
@@ -74,16 +74,20 @@ mod tests {
         ] {
             let stencil = Stencil::new(time, 0.1, Some((0.0, 9.0))).unwrap();
             let rates = rates(&stencil);
-            for (jumps, expected) in [[false, false], [false, true], [true, false], [true, true]].into_iter().zip(kinds) {
+            for (jumps, expected) in
+                [[false, false], [false, true], [true, false], [true, true]].into_iter().zip(kinds)
+            {
                 let found = kind(stencil.at(), jumps);
                 assert_eq!(found, expected, "{time} {jumps:?}");
                 // Steady motion but for jumps of 1000: the velocity is that of the motion.
                 let [a, b, _] = stencil.times();
                 let place = |t: f64| {
-                    let jumped = f64::from(u8::from(jumps[0] && t > a + 0.05) + u8::from(jumps[1] && t > b + 0.05));
+                    let jumped =
+                        f64::from(u8::from(jumps[0] && t > a + 0.05) + u8::from(jumps[1] && t > b + 0.05));
                     3.0 * t + 1000.0 * jumped
                 };
-                let velocity: f64 = rates[found].first.iter().zip(stencil.times()).map(|(w, t)| w * place(t)).sum();
+                let velocity: f64 =
+                    rates[found].first.iter().zip(stencil.times()).map(|(w, t)| w * place(t)).sum();
                 let steady = if found == 3 { 0.0 } else { 3.0 };
                 assert!((velocity - steady).abs() < 1e-9, "{time} {jumps:?} {velocity}");
             }

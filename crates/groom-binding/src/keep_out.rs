@@ -132,7 +132,8 @@ impl Skin<'_> {
     /// How far a place is from the skin, and on which side; none when there is no triangle.
     fn see(&self, place: DVec3, search: &mut Search) -> Option<Seen> {
         let nearest = self.tree.nearest(place, search)?;
-        let [a, b, c] = self.triangles[nearest.triangle as usize].map(|vertex| self.positions[vertex as usize]);
+        let [a, b, c] =
+            self.triangles[nearest.triangle as usize].map(|vertex| self.positions[vertex as usize]);
         let weights = nearest.barycentrics;
         let offset = (place - a) - (b - a) * weights.y - (c - a) * weights.z;
         let normal = self.normals.at(nearest.triangle, weights);

@@ -80,10 +80,8 @@ mod tests {
             .collect();
         let known: Vec<DVec3> =
             (0..size as u32).map(|i| DVec3::new(number(i, "x"), number(i, "y"), number(i, "z"))).collect();
-        let right: Vec<DVec3> = matrix
-            .chunks_exact(size)
-            .map(|row| row.iter().zip(&known).map(|(&a, &x)| x * a).sum())
-            .collect();
+        let right: Vec<DVec3> =
+            matrix.chunks_exact(size).map(|row| row.iter().zip(&known).map(|(&a, &x)| x * a).sum()).collect();
         let found = LinearSystem::new(size, matrix).unwrap().solve(&right);
         assert!(found.iter().zip(&known).all(|(a, b)| a.distance(*b) < 1e-10));
     }

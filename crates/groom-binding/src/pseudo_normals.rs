@@ -9,8 +9,8 @@ use std::collections::HashMap;
 
 use glam::DVec3;
 
-use crate::vertex_normals::{VertexNormals, unit};
 use crate::Surface;
+use crate::vertex_normals::{VertexNormals, unit};
 
 /// Edges and vertices of a mesh, with repeated vertices taken as one.
 #[derive(Clone, Debug)]
@@ -26,8 +26,11 @@ pub(crate) struct Features {
 impl Features {
     pub(crate) fn of(surface: &Surface<'_>) -> Self {
         let normals = VertexNormals::of(surface);
-        let corners: Vec<[u32; 3]> =
-            surface.triangles.iter().map(|triangle| triangle.map(|vertex| normals.stands_for(vertex))).collect();
+        let corners: Vec<[u32; 3]> = surface
+            .triangles
+            .iter()
+            .map(|triangle| triangle.map(|vertex| normals.stands_for(vertex)))
+            .collect();
         let mut numbers = HashMap::with_capacity(corners.len() * 3 / 2);
         let mut number = |a: u32, b: u32| {
             let next = numbers.len() as u32;

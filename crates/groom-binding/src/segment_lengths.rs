@@ -23,7 +23,10 @@ pub(crate) fn worst_change(strand: &[DVec3], rest: &[Vec3]) -> f64 {
     let lengths = |points: &[DVec3]| points.windows(2).map(|p| p[1].distance(p[0])).collect::<Vec<_>>();
     let rest = lengths(&rest.iter().map(|p| p.as_dvec3()).collect::<Vec<_>>());
     let total: f64 = rest.iter().sum();
-    lengths(strand).iter().zip(&rest).fold(0.0, |worst: f64, (now, then)| worst.max((now - then).abs() / total))
+    lengths(strand)
+        .iter()
+        .zip(&rest)
+        .fold(0.0, |worst: f64, (now, then)| worst.max((now - then).abs() / total))
 }
 
 #[cfg(test)]

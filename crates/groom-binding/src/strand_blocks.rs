@@ -18,7 +18,8 @@ pub(crate) fn each_strand<T: Send, const N: usize>(
     let offsets = groom.offsets();
     let points = |strands: &Range<usize>| (offsets[strands.end] - offsets[strands.start]) as usize;
     let ranges = ranges(offsets);
-    let blocks: Vec<_> = ranges.into_iter().map(|strands| (take(&mut out, points(&strands)), strands)).collect();
+    let blocks: Vec<_> =
+        ranges.into_iter().map(|strands| (take(&mut out, points(&strands)), strands)).collect();
     blocks.into_par_iter().for_each(|(mut own, strands)| {
         for strand in strands {
             let count = points(&(strand..strand + 1));

@@ -13,12 +13,12 @@ pub(crate) struct Part {
 }
 
 impl Part {
-    /// The sum of motions, each times a number: with a stencil's weights, the rate of change.
-    pub(crate) fn combined(motions: &[RigidMotion; 3], by: [f64; 3]) -> Part {
+    /// The rate of change of motions, by weights that sum to nothing.
+    pub(crate) fn rate(motions: &[RigidMotion; 3], by: [f64; 3]) -> Part {
         let [a, b, c] = motions;
+        // By differences, which are nothing where nothing moves and stay exact far from the origin.
         Part {
-            turn: a.turn * by[0] + b.turn * by[1] + c.turn * by[2],
-            // By differences, which stay exact far from the origin: the weights of a rate sum to nothing.
+            turn: (a.turn - b.turn) * by[0] + (c.turn - b.turn) * by[2],
             to: (a.to - b.to) * by[0] + (c.to - b.to) * by[2],
         }
     }
