@@ -74,7 +74,9 @@ impl CarryOptions {
             return refuse("origin", self.origin.to_string(), "finite numbers");
         }
         match self.teleport {
-            Some(speed) if !(speed > 0.0) => refuse("teleport", speed.to_string(), "a speed over 0"),
+            Some(speed) if speed.is_nan() || speed <= 0.0 => {
+                refuse("teleport", speed.to_string(), "a speed over 0")
+            }
             _ => Ok(()),
         }
     }

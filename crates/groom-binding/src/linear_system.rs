@@ -23,8 +23,7 @@ impl LinearSystem {
         for k in 0..size {
             let size_at = |row: usize| matrix[row * size + k].abs();
             let pivot = (k..size).max_by(|&a, &b| size_at(a).total_cmp(&size_at(b)).then(b.cmp(&a)))?;
-            // Also true of what is not a number.
-            if !(size_at(pivot) > 1e-13 * greatest) {
+            if size_at(pivot).is_nan() || size_at(pivot) <= 1e-13 * greatest {
                 return None;
             }
             if pivot != k {

@@ -56,8 +56,10 @@ pub fn fur_on(surface: &FurSurface<'_>, options: &FurOptions) -> Result<Groom, S
     }
     let offsets = (0..=options.strands).map(|i| i * options.points).collect();
     let mut groom = Groom::new(offsets, positions)?;
-    let root_radius = (COVER * area / (2.0 * f64::from(options.strands) * coat.length)).min(0.02 * coat.length);
-    let taper = groom.along_strands().into_iter().map(|t| root_radius as f32 * (1.0 - 0.85 * t * t)).collect();
+    let root_radius =
+        (COVER * area / (2.0 * f64::from(options.strands) * coat.length)).min(0.02 * coat.length);
+    let taper =
+        groom.along_strands().into_iter().map(|t| root_radius as f32 * (1.0 - 0.85 * t * t)).collect();
     groom.set_attribute(names::RADIUS, Attribute { domain: Domain::Vertex, values: Values::Float(taper) })?;
     if options.color {
         dress::color(&mut groom, options.seed)?;

@@ -77,12 +77,9 @@ impl FurOptions {
         if !(self.length > 0.0 && self.length <= 1.0) {
             return number("length", self.length.to_string(), "over 0, up to 1 of the surface's diagonal");
         }
-        for (what, value) in [
-            ("variation", self.variation),
-            ("lean", self.lean),
-            ("curl", self.curl),
-            ("clump", self.clump),
-        ] {
+        for (what, value) in
+            [("variation", self.variation), ("lean", self.lean), ("curl", self.curl), ("clump", self.clump)]
+        {
             if !(0.0..=1.0).contains(&value) {
                 return number(what, value.to_string(), "0 to 1");
             }

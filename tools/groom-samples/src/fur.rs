@@ -56,11 +56,8 @@ pub struct FurArgs {
 pub fn make(args: &FurArgs) -> anyhow::Result<()> {
     let mesh = TriangleMesh::open(&args.mesh)?;
     let positions: Vec<_> = mesh.positions.iter().map(|p| p.as_dvec3()).collect();
-    let surface = FurSurface {
-        positions: &positions,
-        triangles: &mesh.triangles,
-        normals: mesh.normals.as_deref(),
-    };
+    let surface =
+        FurSurface { positions: &positions, triangles: &mesh.triangles, normals: mesh.normals.as_deref() };
     let options = FurOptions {
         strands: args.strands,
         points: args.points,
