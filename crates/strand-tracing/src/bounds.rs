@@ -4,7 +4,7 @@ use glam::{Vec3, Vec4, Vec4Swizzles};
 use obvhs::aabb::Aabb;
 
 /// The next number down and up: single precision sums are at most half of that away.
-fn widened(low: Vec3, high: Vec3) -> Aabb {
+pub(crate) fn widened(low: Vec3, high: Vec3) -> Aabb {
     let low = Vec3::new(low.x.next_down(), low.y.next_down(), low.z.next_down());
     let high = Vec3::new(high.x.next_up(), high.y.next_up(), high.z.next_up());
     Aabb::new(low.into(), high.into())

@@ -1,6 +1,6 @@
 //! From geometry to a tree.
 
-use glam::{Vec3, Vec4, Vec4Swizzles};
+use glam::Vec3;
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
@@ -53,8 +53,8 @@ impl Built {
 
 /// The tree over everything that can be hit and stands still, and the box around it all.
 pub(crate) fn tree(fibres: &Fibres, meshes: &Meshes, options: &BuildOptions) -> Built {
-    let whole = segments(fibres, false);
-    let triangles = triangles(meshes, false);
+    let whole = segments(fibres);
+    let triangles = triangles(meshes);
     let corners = |&number: &u32| bounds::of_triangle(&meshes.all()[number as usize]);
     let segments = whole.iter().map(|piece| bounds::of_segment(piece.a, piece.b));
     let bounds = around(segments.chain(triangles.iter().map(corners)));
@@ -64,48 +64,12 @@ pub(crate) fn tree(fibres: &Fibres, meshes: &Meshes, options: &BuildOptions) -> 
         .map(|piece| bounds::of_segment(piece.a, piece.b))
         .chain(triangles.iter().map(corners))
         .collect();
-    let (tree, packs) = packed(&boxes, &pieces, &triangles, options);
-    Built { tree, packs, bounds }
+    Built { bounds, ..over(&boxes, &pieces, &triangles, options.quality) }
 }
 
-/// The tree over everything that moves, none where nothing does: every box holds all keys.
-pub(crate) fn moving(fibres: &Fibres, meshes: &Meshes, options: &BuildOptions) -> Option<Built> {
-    if fibres.tracks().is_empty() && meshes.tracks().is_empty() {
-        return None;
-    }
-    let mut pieces = segments(fibres, true);
-    let triangles = triangles(meshes, true);
-    let along = pieces.iter().map(|piece| {
-        let Piece { number, a, b } = *piece;
-        let key = |number: u32, end: Vec4, key| {
-            let track = fibres.tracks().of(number)?;
-            Some(track.at(number, key, end.xyz()).extend(end.w))
-        };
-        let keys = fibres.tracks().of(number).map_or(0, |track| track.intervals());
-        let all =
-            (0..=keys).filter_map(|k| Some(bounds::of_segment(key(number, a, k)?, key(number + 1, b, k)?)));
-        all.fold(bounds::of_segment(a, b), |a, b| a.union(&b))
-    });
-    let across = triangles.iter().map(|&number| {
-        let first = meshes.all()[number as usize];
-        let track = meshes.tracks().of(number);
-        let all = track
-            .into_iter()
-            .flat_map(|track| (1..=track.intervals()).map(move |key| track.at(number, key, first)));
-        all.fold(bounds::of_triangle(&first), |a, b| a.union(&bounds::of_triangle(&b)))
-    });
-    let boxes: Vec<Aabb> = along.chain(across).collect();
-    for piece in &mut pieces {
-        piece.a.w = f32::INFINITY;
-    }
-    let bounds = around(boxes.iter().copied());
-    let (tree, packs) = packed(&boxes, &pieces, &triangles, options);
-    Some(Built { tree, packs, bounds })
-}
-
-/// A tree over the boxes of pieces and triangles, in this order, and its leaves of segments.
-fn packed(boxes: &[Aabb], pieces: &[Piece], triangles: &[u32], options: &BuildOptions) -> (WideTree, Packs) {
-    let binary = binary(boxes, options.quality);
+/// The tree over the boxes of pieces and triangles, given in this order.
+pub(crate) fn over(boxes: &[Aabb], pieces: &[Piece], triangles: &[u32], quality: BuildQuality) -> Built {
+    let binary = binary(boxes, quality);
     let mut packs = Packs::default();
     let packed = |place: u32| (place as usize) < pieces.len();
     let tree = WideTree::from_binary(&binary, packed, |places| match places {
@@ -113,29 +77,29 @@ fn packed(boxes: &[Aabb], pieces: &[Piece], triangles: &[u32], options: &BuildOp
         places => packs.push(places.iter().filter_map(|&place| pieces.get(place as usize))),
     });
     packs.finish();
-    (tree, packs)
+    Built { tree, packs, bounds: around(boxes.iter().copied()) }
 }
 
 /// The box round everything; two zeros where there is nothing.
-fn around(boxes: impl Iterator<Item = Aabb>) -> (Vec3, Vec3) {
+pub(crate) fn around(boxes: impl Iterator<Item = Aabb>) -> (Vec3, Vec3) {
     boxes.reduce(|a, b| a.union(&b)).map_or((Vec3::ZERO, Vec3::ZERO), |b| (b.min.into(), b.max.into()))
 }
 
-/// All segments that can be hit and move, or do not.
-fn segments(fibres: &Fibres, moving: bool) -> Vec<Piece> {
-    let mine = fibres.solid().filter(|&number| fibres.tracks().of(number).is_some() == moving);
+/// All segments that can be hit and stand still.
+fn segments(fibres: &Fibres) -> Vec<Piece> {
+    let mine = fibres.solid().filter(|&number| fibres.tracks().of(number).is_none());
     mine.filter_map(|number| fibres.ends(number).map(|(a, b)| Piece { number, a, b })).collect()
 }
 
-/// All triangles that move, or do not.
-fn triangles(meshes: &Meshes, moving: bool) -> Vec<u32> {
+/// All triangles that stand still.
+fn triangles(meshes: &Meshes) -> Vec<u32> {
     let all = 0..meshes.all().len() as u32;
-    all.filter(|&number| meshes.tracks().of(number).is_some() == moving).collect()
+    all.filter(|&number| meshes.tracks().of(number).is_none()).collect()
 }
 
 /// `obvhs`'s own helper would do, but it checks every tree it makes in debug builds, which takes longer
 /// than the rest of a test.
-fn binary(boxes: &[Aabb], quality: BuildQuality) -> Bvh2 {
+pub(crate) fn binary(boxes: &[Aabb], quality: BuildQuality) -> Bvh2 {
     let (distance, plain_rounds, reinserted) = match quality {
         BuildQuality::Draft => (PlocSearchDistance::Minimum, 0, 0.0),
         BuildQuality::Standard => (PlocSearchDistance::Medium, 3, 0.05),

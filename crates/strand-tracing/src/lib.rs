@@ -40,6 +40,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod arrange;
 mod bounds;
 mod build;
 mod cone_sphere;
@@ -51,14 +52,22 @@ mod inside;
 mod keys;
 mod line;
 mod meshes;
+mod moving;
+mod moving_packs;
+mod moving_pieces;
+mod moving_tree;
+mod moving_triangles;
 mod pack;
 mod pieces;
 mod pose;
 mod query;
 mod search;
+mod shares;
+mod slabs;
 mod tracer;
 mod tracks;
 mod triangle;
+mod walk;
 mod wide_tree;
 
 pub use error::TracingError;

@@ -127,13 +127,24 @@ impl Sight {
         }
     }
 
+    /// With ends that are this much farther off than stored ones.
+    pub(crate) fn blurred(self, by: f64) -> Self {
+        Self { slack: self.slack + Vec4::splat((by as f32).next_up()), ..self }
+    }
+
     /// A bit for every segment that the line may hit.
     #[inline(always)]
     pub(crate) fn near(&self, pack: &Pack) -> u32 {
+        self.reached(|axis, end| pack.ends[axis][end], pack.radii)
+    }
+
+    /// The same, of ends given by axis and end (0 or 1).
+    #[inline(always)]
+    pub(crate) fn reached(&self, ends: impl Fn(usize, usize) -> Vec4, radii: Vec4) -> u32 {
         let place = |end: usize| {
-            let x = pack.ends[0][end] - self.origin[0];
-            let y = pack.ends[1][end] - self.origin[1];
-            let z = pack.ends[2][end] - self.origin[2];
+            let x = ends(0, end) - self.origin[0];
+            let y = ends(1, end) - self.origin[1];
+            let z = ends(2, end) - self.origin[2];
             let across = |axis: &[Vec4; 3]| x * axis[0] + y * axis[1] + z * axis[2];
             (across(&self.right), across(&self.up))
         };
@@ -143,7 +154,7 @@ impl Sight {
         let squared = (ex * ex + ey * ey).max(Vec4::splat(f32::MIN_POSITIVE));
         let u = (-(ax * ex + ay * ey) / squared).max(Vec4::ZERO).min(Vec4::ONE);
         let (x, y) = (ax + ex * u, ay + ey * u);
-        let reach = pack.radii + self.slack;
+        let reach = radii + self.slack;
         (x * x + y * y).cmple(reach * reach).bitmask() | self.blind
     }
 }

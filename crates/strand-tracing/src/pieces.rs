@@ -29,6 +29,22 @@ pub(crate) struct Piece {
 
 /// Cuts segments, given as whole pieces.
 pub(crate) fn cut(whole: Vec<Piece>) -> Vec<Piece> {
+    let cuts = cuts(&whole);
+    if cuts.is_empty() {
+        return whole;
+    }
+    let mut pieces = Vec::with_capacity(whole.len() + cuts.iter().sum::<u32>() as usize);
+    for (piece, &cuts) in whole.iter().zip(&cuts) {
+        match cuts {
+            0 => pieces.push(*piece),
+            cuts => pieces.extend((0..=cuts).map(|part| part_of(piece, part, cuts + 1))),
+        }
+    }
+    pieces
+}
+
+/// How often each segment is cut; empty where none is.
+pub(crate) fn cuts(whole: &[Piece]) -> Vec<u32> {
     let (low, high) = whole.iter().fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(low, high), piece| {
         let (a, b) = (piece.a.xyz(), piece.b.xyz());
         (low.min(a).min(b), high.max(a).max(b))
@@ -42,17 +58,10 @@ pub(crate) fn cut(whole: Vec<Piece>) -> Vec<Piece> {
     };
     let wanted: f64 = whole.iter().map(cuts).sum();
     if wanted < 1.0 || !wanted.is_finite() {
-        return whole;
+        return Vec::new();
     }
     let share = (SPARE * whole.len() as f64 / wanted).min(1.0);
-    let mut pieces = Vec::with_capacity(whole.len() + (wanted * share) as usize + 1);
-    for piece in &whole {
-        match (cuts(piece) * share).round() as u32 {
-            0 => pieces.push(*piece),
-            cuts => pieces.extend((0..=cuts).map(|part| part_of(piece, part, cuts + 1))),
-        }
-    }
-    pieces
+    whole.iter().map(|piece| (cuts(piece) * share).round() as u32).collect()
 }
 
 /// Half the surface of a box.

@@ -7,6 +7,7 @@ use glam::Vec3;
 use crate::build::{self, Built};
 use crate::fibres::Fibres;
 use crate::meshes::Meshes;
+use crate::moving::Moving;
 use crate::pose::{Moment, Still};
 use crate::query::Query;
 use crate::search::{self, Nearest};
@@ -20,7 +21,7 @@ pub struct Tracer {
     /// What stands still.
     built: Built,
     /// What moves; none where nothing does.
-    moving: Option<Built>,
+    moving: Option<Moving>,
     statistics: Statistics,
 }
 
@@ -54,13 +55,12 @@ impl Tracer {
         let fibres = Fibres::gather(strands)?;
         let meshes = Meshes::gather(triangles)?;
         let built = build::tree(&fibres, &meshes, options);
-        let moving = build::moving(&fibres, &meshes, options);
-        let trees = || std::iter::once(&built).chain(&moving);
+        let moving = Moving::build(&fibres, &meshes, options);
         let statistics = Statistics {
             segments: fibres.solid().count(),
             triangles: meshes.all().len(),
-            nodes: trees().map(|built| built.tree.node_count()).sum(),
-            bytes: fibres.bytes() + meshes.bytes() + trees().map(Built::bytes).sum::<usize>(),
+            nodes: built.tree.node_count() + moving.as_ref().map_or(0, |moving| moving.tree.node_count()),
+            bytes: fibres.bytes() + meshes.bytes() + built.bytes() + moving.as_ref().map_or(0, Moving::bytes),
             build_seconds: start.elapsed().as_secs_f64(),
         };
         Ok(Self { fibres, meshes, built, moving, statistics })

@@ -67,6 +67,11 @@ impl<T: Copy> Tracks<T> {
         ((number - track.first) as usize).lt(&len).then_some(track)
     }
 
+    /// Of how many intervals every track is.
+    pub(crate) fn intervals(&self) -> impl Iterator<Item = usize> + Clone {
+        self.tracks.iter().map(Track::intervals)
+    }
+
     pub(crate) fn bytes(&self) -> usize {
         let keys = self.tracks.iter().flat_map(|track| &track.keys);
         self.tracks.capacity() * size_of::<Track<T>>()

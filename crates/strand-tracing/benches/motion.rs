@@ -1,0 +1,286 @@
+//! Rays a second at random times through a ball of hair that spins in the shutter: the tree whose boxes move,
+//! beside the same rays through a tree whose boxes hold every key, and through still hair.
+//!
+//! `BENCH_STRANDS` (10000) sets the size of the ball; all timings of a row are taken in turns, the best counts.
+#![allow(missing_docs, dead_code, unused_imports, clippy::print_stdout, clippy::unwrap_used)]
+
+use std::time::Instant;
+
+use glam::{Quat, Vec3, Vec4, Vec4Swizzles, vec3};
+use strand_tracing::{
+    BuildOptions, BuildQuality, Hit, HitKind, Primitive, Radii, Ray, Strands, Tracer, TracingError, Triangles,
+};
+
+#[path = "../src/arrange.rs"]
+mod arrange;
+#[path = "../src/bounds.rs"]
+mod bounds;
+#[path = "../src/build.rs"]
+mod build;
+#[path = "../src/cone_sphere.rs"]
+mod cone_sphere;
+#[path = "../src/fibres.rs"]
+mod fibres;
+#[path = "../src/inside.rs"]
+mod inside;
+#[path = "../src/keys.rs"]
+mod keys;
+#[path = "../src/line.rs"]
+mod line;
+#[path = "../src/meshes.rs"]
+mod meshes;
+#[path = "../src/moving.rs"]
+mod moving;
+#[path = "../src/moving_packs.rs"]
+mod moving_packs;
+#[path = "../src/moving_pieces.rs"]
+mod moving_pieces;
+#[path = "../src/moving_tree.rs"]
+mod moving_tree;
+#[path = "../src/moving_triangles.rs"]
+mod moving_triangles;
+#[path = "../src/pack.rs"]
+mod pack;
+#[path = "../src/pieces.rs"]
+mod pieces;
+#[path = "../src/pose.rs"]
+mod pose;
+#[path = "../src/query.rs"]
+mod query;
+#[path = "../src/search.rs"]
+mod search;
+#[path = "../src/shares.rs"]
+mod shares;
+#[path = "../src/slabs.rs"]
+mod slabs;
+#[path = "../src/tracks.rs"]
+mod tracks;
+#[path = "../src/triangle.rs"]
+mod triangle;
+#[path = "../src/walk.rs"]
+mod walk;
+#[path = "../src/wide_tree.rs"]
+mod wide_tree;
+
+use build::Built;
+use fibres::Fibres;
+use meshes::Meshes;
+use pieces::Piece;
+use pose::Moment;
+use query::Query;
+use search::Nearest;
+
+const ROUNDS: usize = 3;
+const SEGMENTS: u32 = 24;
+
+/// Uniform numbers from a counter (SplitMix64).
+struct Random(u64);
+
+impl Random {
+    fn next(&mut self) -> f32 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) >> 40) as f32 / (1_u64 << 24) as f32
+    }
+
+    fn direction(&mut self) -> Vec3 {
+        let z = 1.0 - 2.0 * self.next();
+        let (sin, cos) = (std::f32::consts::TAU * self.next()).sin_cos();
+        let across = (1.0 - z * z).max(0.0).sqrt();
+        vec3(across * cos, across * sin, z).normalize()
+    }
+}
+
+/// The ball of the bench `rays`.
+struct Hair {
+    offsets: Vec<u32>,
+    positions: Vec<Vec3>,
+    radii: Vec<f32>,
+}
+
+fn ball(strands: u32) -> Hair {
+    let mut random = Random(1);
+    let mut hair = Hair { offsets: vec![0], positions: Vec::new(), radii: Vec::new() };
+    for _ in 0..strands {
+        let out = random.direction();
+        let side = out.any_orthonormal_vector() * (random.next() - 0.5);
+        for point in 0..=SEGMENTS {
+            let s = point as f32 / SEGMENTS as f32;
+            hair.positions.push(out * (5.0 + 5.0 * s) + (side + Vec3::NEG_Y) * 2.0 * s * s);
+            hair.radii.push(0.05 - 0.03 * s);
+        }
+        hair.offsets.push(hair.positions.len() as u32);
+    }
+    hair
+}
+
+/// The ball at keys evenly spaced over a turn about the vertical; the turn is centred on the shutter.
+fn spun(hair: &Hair, degrees: f32, keys: usize) -> Vec<Vec<Vec3>> {
+    (0..keys)
+        .map(|key| {
+            let turn = degrees.to_radians() * (key as f32 / (keys - 1).max(1) as f32 - 0.5);
+            let turn = Quat::from_rotation_y(if keys == 1 { 0.0 } else { turn });
+            hair.positions.iter().map(|&p| turn * p).collect()
+        })
+        .collect()
+}
+
+/// The same strands under boxes that hold all keys, with nothing rejected by its line.
+fn around_all_keys(fibres: &Fibres) -> Built {
+    let mut pieces: Vec<Piece> = Vec::new();
+    let mut boxes = Vec::new();
+    for number in fibres.solid() {
+        let ((a, b), track) = (fibres.ends(number).unwrap(), fibres.tracks().of(number).unwrap());
+        let at = |number, key, end: Vec4| track.at(number, key, end.xyz()).extend(end.w);
+        let keys = 0..=track.intervals();
+        let around = keys.map(|key| bounds::of_segment(at(number, key, a), at(number + 1, key, b)));
+        boxes.push(around.reduce(|a, b| a.union(&b)).unwrap());
+        pieces.push(Piece { number, a: a.with_w(f32::INFINITY), b });
+    }
+    build::over(&boxes, &pieces, &[], BuildQuality::Standard)
+}
+
+fn camera_rays(side: u32, random: &mut Random) -> Vec<Ray> {
+    let eye = vec3(0.3, 0.2, 1.0).normalize() * 36.0;
+    let ahead = -eye.normalize();
+    let right = ahead.cross(Vec3::Y).normalize();
+    let up = right.cross(ahead);
+    let pixel = |i: u32| (i as f32 + 0.5) / side as f32 - 0.5;
+    (0..side * side)
+        .map(|i| {
+            let direction = ahead + right * pixel(i % side) * 0.7 + up * pixel(i / side) * 0.7;
+            Ray { origin: eye, direction: direction.normalize(), t_max: f32::INFINITY, time: random.next() }
+        })
+        .collect()
+}
+
+/// A ray of the hit's time from every hit.
+fn bounces(rays: &[Ray], tracer: &Tracer, random: &mut Random) -> Vec<(Ray, Option<Primitive>)> {
+    rays.iter()
+        .filter_map(|ray| Some((ray.time, tracer.closest(ray, None)?)))
+        .map(|(time, hit)| {
+            let (origin, direction) = (hit.position, random.direction());
+            (Ray { origin, direction, t_max: f32::INFINITY, time }, Some(hit.primitive))
+        })
+        .collect()
+}
+
+type Asked = (Ray, Option<Primitive>);
+
+/// Millions of rays a second: primary, bounces, any hit of the bounces; and how many hit.
+fn rates(
+    rays: [&[Asked]; 2],
+    closest: impl Fn(&Asked) -> bool,
+    any: impl Fn(&Asked) -> bool,
+) -> ([f64; 3], usize) {
+    let mut hits = 0;
+    let mut rate = |rays: &[Asked], what: &dyn Fn(&Asked) -> bool| {
+        let start = Instant::now();
+        hits += rays.iter().filter(|asked| what(asked)).count();
+        rays.len() as f64 / start.elapsed().as_secs_f64() / 1e6
+    };
+    ([rate(rays[0], &closest), rate(rays[1], &closest), rate(rays[1], &any)], hits)
+}
+
+fn main() {
+    let strands = std::env::var("BENCH_STRANDS").ok().and_then(|text| text.parse().ok()).unwrap_or(10_000);
+    let hair = ball(strands);
+    println!("ball of {strands} strands, {} points; Mrays/s primary, bounce, any", hair.positions.len());
+    let mut random = Random(7);
+    let primary = camera_rays(400, &mut random);
+    let still = spun(&hair, 0.0, 1);
+    let still = build(&hair, &still);
+    let bytes = still.statistics().bytes;
+    for degrees in [0.0, 5.0, 45.0] {
+        for keys in [2, 3, 5, 9] {
+            if degrees == 0.0 && keys != 2 {
+                continue;
+            }
+            row(&hair, &still, &primary, bytes, degrees, keys);
+        }
+    }
+}
+
+fn build(hair: &Hair, keys: &[Vec<Vec3>]) -> Tracer {
+    let moved: Vec<&[Vec3]> = keys[1..].iter().map(Vec::as_slice).collect();
+    Tracer::build(&[hair.strands(&keys[0], &moved)], &[], &BuildOptions::default()).unwrap()
+}
+
+impl Hair {
+    fn strands<'a>(&'a self, positions: &'a [Vec3], moved: &'a [&'a [Vec3]]) -> Strands<'a> {
+        Strands { offsets: &self.offsets, positions, radii: Radii::PerVertex(&self.radii), moved }
+    }
+}
+
+fn row(hair: &Hair, still: &Tracer, primary: &[Ray], bytes: usize, degrees: f32, keys: usize) {
+    let mut positions = spun(hair, degrees, keys);
+    if degrees == 0.0 {
+        // Keys that are all the same are none: one hair a little off makes them count.
+        positions[1][0].x += 1e-3;
+    }
+    let moved: Vec<&[Vec3]> = positions[1..].iter().map(Vec::as_slice).collect();
+    let moving = build(hair, &positions);
+    let fibres = Fibres::gather(&[hair.strands(&positions[0], &moved)]).unwrap();
+    let meshes = Meshes::default();
+    let start = Instant::now();
+    let around = around_all_keys(&fibres);
+    let around_seconds = start.elapsed().as_secs_f64();
+    let mut random = Random(5);
+    let secondary = bounces(primary, &moving, &mut random);
+    let still_secondary = bounces(primary, still, &mut random);
+    let primary: Vec<Asked> = primary.iter().map(|ray| (*ray, None)).collect();
+    let naive = |(ray, left): &Asked| {
+        let pose = Moment { fibres: &fibres, meshes: &meshes, time: f64::from(ray.time) };
+        Query::new(pose, ray, *left)
+    };
+    let mut best = [[0.0_f64; 3]; 3];
+    let mut counts = [0; 3];
+    for _ in 0..ROUNDS {
+        let found = [
+            rates(
+                [&primary, &still_secondary],
+                |(ray, left)| still.closest(ray, *left).is_some(),
+                |(ray, left)| still.occluded(ray, *left),
+            ),
+            rates(
+                [&primary, &secondary],
+                |(ray, left)| moving.closest(ray, *left).is_some(),
+                |(ray, left)| moving.occluded(ray, *left),
+            ),
+            rates(
+                [&primary, &secondary],
+                |asked| {
+                    let query = naive(asked);
+                    let mut nearest = Nearest::new(&asked.0);
+                    nearest.search(&around, &query, &asked.0);
+                    nearest.describe(&query, &asked.0).is_some()
+                },
+                |asked| search::any(&around, &naive(asked), &asked.0),
+            ),
+        ];
+        for (i, (rates, hits)) in found.into_iter().enumerate() {
+            best[i] = std::array::from_fn(|k| best[i][k].max(rates[k]));
+            counts[i] = hits;
+        }
+    }
+    assert_eq!(counts[1], counts[2], "the two trees find the same");
+    let [of_still, of_moving, of_naive] = best;
+    let statistics = moving.statistics();
+    let ratios =
+        |a: [f64; 3], b: [f64; 3]| format!("{:.2} {:.2} {:.2}", a[0] / b[0], a[1] / b[1], a[2] / b[2]);
+    println!(
+        "  {degrees:2} degrees, {keys} keys: {:.2} {:.2} {:.2}; over boxes of all keys {}; over still {}; \
+         build {:.2} s (still {:.2}, all keys {around_seconds:.2}); {:.1} MB + {:.1} MB a further key",
+        of_moving[0],
+        of_moving[1],
+        of_moving[2],
+        ratios(of_moving, of_naive),
+        ratios(of_moving, of_still),
+        statistics.build_seconds,
+        still.statistics().build_seconds,
+        bytes as f64 / 1e6,
+        (statistics.bytes - bytes) as f64 / (keys - 1) as f64 / 1e6,
+    );
+}
