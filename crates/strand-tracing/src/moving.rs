@@ -63,7 +63,7 @@ impl Moving {
 /// Intervals for a tree: every object's keys are among its own, unless those are too many.
 fn intervals(of_objects: impl Iterator<Item = usize> + Clone) -> usize {
     let most = of_objects.clone().max().unwrap_or(1).clamp(1, MOST_INTERVALS);
-    let multiple = |count: usize| of_objects.clone().all(|intervals| count % intervals.max(1) == 0);
+    let multiple = |count: usize| of_objects.clone().all(|intervals| count.is_multiple_of(intervals.max(1)));
     (most..=MOST_INTERVALS).find(|&count| multiple(count)).unwrap_or(most)
 }
 

@@ -98,3 +98,66 @@ impl MovingPacks {
         self.lanes.get(pack as usize).map_or(NOTHING, |lanes| lanes.numbers[lane & (PACKED - 1)])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    #![allow(clippy::unwrap_used)]
+
+    use glam::{Vec3Swizzles, vec3};
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::cone_sphere::ConeSphere;
+    use crate::fibres::Fibres;
+    use crate::line::Line;
+    use crate::meshes::Meshes;
+    use crate::pose::{Moment, Pose};
+    use crate::{Radii, Strands};
+
+    fn anywhere() -> impl Strategy<Value = Vec3> {
+        (-1.0_f32..1.0, -1.0_f32..1.0, -1.0_f32..1.0).prop_map(|(x, y, z)| vec3(x, y, z))
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        /// As for still packs: what the exact test hits survives, at the very rim, whatever the scale, the
+        /// place and the time; also where the tree has fewer keys than the strand.
+        #[test]
+        fn no_hit_is_rejected(
+            ends in prop::array::uniform4(prop::array::uniform2(anywhere())),
+            (length, thick, thin) in (-5.0_f32..1.0, -6.0_f32..1.0, 0.0_f32..1.0),
+            (scale, far, back) in (-6.0_f32..6.0, -6.0_f32..6.0, -3.0_f32..4.0),
+            (u, rim, across, slope) in (-0.1_f32..1.1, -1e-4_f32..1e-4, anywhere(), anywhere()),
+            (parallel, time) in (-6.0_f32..0.5, 0.0_f32..=1.0),
+            (keys, intervals) in (2_usize..5, 1_usize..5),
+        ) {
+            let ten = |power: f32| 10.0_f32.powf(power);
+            let scale = ten(scale);
+            let radius = scale * ten(thick);
+            let keys: Vec<[Vec3; 2]> = ends[..keys]
+                .iter()
+                .map(|&[a, b]| (a * scale + slope.zxy() * ten(far), b * (scale * ten(length))))
+                .map(|(a, along)| [a, a + along])
+                .collect();
+            let moved: Vec<&[Vec3]> = keys[1..].iter().map(|key| key.as_slice()).collect();
+            let radii = [radius, radius * thin];
+            let strands = Strands { offsets: &[0, 2], positions: &keys[0], radii: Radii::PerVertex(&radii), moved: &moved };
+            let fibres = Fibres::gather(&[strands]).unwrap();
+            let moment = Moment { fibres: &fibres, meshes: &Meshes::default(), time: f64::from(time) };
+            let Some((a, b)) = moment.ends(0) else { return Ok(()) };
+            let (p, q) = (a.xyz(), b.xyz());
+            let direction = ((q - p).normalize_or(Vec3::X) + slope * ten(parallel)).normalize_or(Vec3::Y);
+            let off = across.cross(direction).normalize_or_zero() * (radius * (1.0 + (thin - 1.0) * u));
+            let origin = p.lerp(q, u) + off * (1.0 + rim) - direction * (scale * ten(back));
+            let ray = Ray { origin, direction, t_max: f32::INFINITY, time };
+            let pieces = MovingPieces::cut(&moment, intervals);
+            let mut packs = MovingPacks::new(intervals + 1);
+            packs.push(&pieces, pieces.all.iter());
+            let shares = Shares::of(f64::from(time), intervals);
+            let near = packs.near(&packs.sight(&ray), &shares, 0);
+            let hit = ConeSphere::new(a, b).entry(&Line::of(&ray)).is_some();
+            prop_assert!(!hit || near & 1 == 1, "{ray:?} {keys:?}");
+        }
+    }
+}

@@ -153,3 +153,33 @@ fn refitted(binary: &Bvh2, order: &[u32], around: &[Aabb]) -> Vec<Aabb> {
     }
     boxes
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::Vec3;
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::tracks::Between;
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(20_000))]
+
+        /// A point on a face at both keys is rounded, the face is mixed: the point stays within.
+        #[test]
+        fn mixed_planes_hold_what_is_on_them(
+            (low, high) in (-1.0_f32..1.0, -1.0_f32..1.0),
+            (scale, other) in (-20.0_f32..20.0, -20.0_f32..20.0),
+            time in 0.0_f32..=1.0,
+        ) {
+            let (a, b) = (low * 10.0_f32.powf(scale), high * 10.0_f32.powf(other));
+            let plane = |x: f32| [[Vec4::splat(x); 2]; 3];
+            let mut keys = [plane(a), plane(b)];
+            widen(&mut keys);
+            let shares = Shares::of(f64::from(time), 1);
+            let x = Between::of(f64::from(time), 1).mix(Vec3::splat(a), Vec3::splat(b)).x;
+            let mixed = |side: usize| shares.mix(keys[0][0][side], keys[1][0][side]).x;
+            prop_assert!(mixed(0) <= x && x <= mixed(1), "{} {x} {}", mixed(0), mixed(1));
+        }
+    }
+}

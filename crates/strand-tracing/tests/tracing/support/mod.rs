@@ -1,5 +1,4 @@
 //! An independent intersector to test against, and seeded numbers.
-#![allow(dead_code, missing_docs, clippy::unwrap_used)]
 
 use glam::{DVec3, Vec3, vec3};
 use strand_tracing::{BuildOptions, Radii, Ray, Strands, Tracer};

@@ -1,11 +1,8 @@
 //! Rays that start on a fibre: they are not stopped by what they leave, and by nothing less.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod support;
-
+use crate::support::{Hair, Random, Span, wander};
 use glam::{Vec3, vec3};
 use strand_tracing::{Primitive, Ray, Tracer};
-use support::{Hair, Random, Span, wander};
 
 fn segment(primitive: Primitive) -> (u32, u32) {
     match primitive {

@@ -1,11 +1,8 @@
 //! What is hit, where and how, against ternary search over swept spheres.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod support;
-
+use crate::support::{Hair, Random, Span, Swept, wander};
 use glam::{DVec3, Vec3};
 use strand_tracing::{Hit, HitKind, Primitive, Ray};
-use support::{Hair, Random, Span, Swept, wander};
 
 /// Scale of the scene, its distance from the origin, radius relative to the scale.
 const SCENES: [(f32, f32, f32); 9] = [

@@ -1,11 +1,8 @@
 //! Triangles: closed meshes stay closed, and brute force agrees.
-#![allow(clippy::unwrap_used, clippy::panic)]
 
-mod support;
-
+use crate::support::Random;
 use glam::{DVec3, Vec3, vec3};
 use strand_tracing::{BuildOptions, HitKind, Primitive, Radii, Ray, Strands, Tracer, Triangles};
-use support::Random;
 
 /// A sphere of `2 * n * n` triangles that share every edge.
 fn sphere(n: u32, scale: f32, centre: Vec3) -> (Vec<Vec3>, Vec<[u32; 3]>) {

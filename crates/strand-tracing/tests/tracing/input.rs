@@ -1,10 +1,9 @@
 //! What is refused, what is degenerate, and that nothing panics.
-#![allow(clippy::unwrap_used, clippy::panic)]
-
-mod support;
 
 use glam::{Vec3, vec3};
 use proptest::prelude::*;
+
+use crate::support::{Random, wander};
 use strand_tracing::{
     BuildOptions, HitKind, Primitive, Radii, Ray, Strands, Tracer, TracingError, Triangles,
 };
@@ -108,8 +107,8 @@ fn ids_are_the_input_s_places() {
 
 #[test]
 fn building_twice_gives_the_same_and_the_first_of_twins_is_hit() {
-    let mut random = support::Random(9);
-    let mut hair = support::wander(&mut random, 1.0, Vec3::ZERO, 0.05, 0.5);
+    let mut random = Random(9);
+    let mut hair = wander(&mut random, 1.0, Vec3::ZERO, 0.05, 0.5);
     let twin = hair.clone();
     let count = hair.positions.len() as u32;
     hair.positions.extend(&twin.positions);
