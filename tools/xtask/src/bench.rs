@@ -5,7 +5,7 @@ use anyhow::Result;
 use crate::shell::{cargo, step};
 
 /// Every bench program of the workspace, low to high.
-const BENCHES: [(&str, &str); 9] = [
+const BENCHES: [(&str, &str); 10] = [
     ("cyhair", "read"),
     ("usd-layer", "read"),
     ("groom-formats", "convert"),
@@ -14,6 +14,7 @@ const BENCHES: [(&str, &str); 9] = [
     ("groom-formats", "gltf"),
     ("fibre-scattering", "scattering"),
     ("strand-tracing", "rays"),
+    ("strand-tracing", "motion"),
     ("hair-render-cli", "straight_hair"),
 ];
 
