@@ -2,6 +2,9 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
 
+mod blended;
+mod hard_cases;
+mod kept_out;
 mod laws;
 mod motion;
 mod places;

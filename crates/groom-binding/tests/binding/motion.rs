@@ -42,7 +42,7 @@ fn at(
 }
 
 /// Rates of change of `place`, by differences of the eighth order over f64: exact to 1e-9 here.
-fn rates_of(place: impl Fn(f64) -> Vec<DVec3>, time: f64) -> (Vec<DVec3>, Vec<DVec3>) {
+pub fn rates_of(place: impl Fn(f64) -> Vec<DVec3>, time: f64) -> (Vec<DVec3>, Vec<DVec3>) {
     const FIRST: [f64; 4] = [4.0 / 5.0, -1.0 / 5.0, 4.0 / 105.0, -1.0 / 280.0];
     const SECOND: [f64; 5] = [-205.0 / 72.0, 8.0 / 5.0, -1.0 / 5.0, 8.0 / 315.0, -1.0 / 560.0];
     let step = 0.01;
@@ -77,7 +77,7 @@ fn framed(groom: &Groom, binding: &Binding, mesh: &Mesh, motion: Motion) -> impl
 }
 
 /// The greatest difference, as a part of the greatest value.
-fn error(found: &[Vec3], expected: &[DVec3]) -> f64 {
+pub fn error(found: &[Vec3], expected: &[DVec3]) -> f64 {
     assert_eq!(found.len(), expected.len());
     let most = expected.iter().map(|v| v.length()).fold(0.0, f64::max);
     let worst = found.iter().zip(expected).map(|(a, b)| a.as_dvec3().distance(*b)).fold(0.0, f64::max);
