@@ -1,9 +1,10 @@
 //! Rays a second at random times through a ball of hair that spins in the shutter: the tree whose boxes move,
 //! beside the same rays through a tree whose boxes hold every key, and through still hair.
 //!
-//! `BENCH_STRANDS` (10000) sets the size of the ball; all timings of a row are taken in turns, the best counts.
+//! `BENCH_STRANDS` (10000) sets the size of the ball, `BENCH_ONLY` ("45 3") picks a row; all timings of a row are taken in turns, the best counts.
 #![allow(missing_docs, dead_code, unused_imports, clippy::print_stdout, clippy::unwrap_used)]
 
+use std::hint::black_box;
 use std::time::Instant;
 
 use glam::{Quat, Vec3, Vec4, Vec4Swizzles, vec3};
@@ -23,6 +24,8 @@ mod cone_sphere;
 mod fibres;
 #[path = "../src/inside.rs"]
 mod inside;
+#[path = "../src/intervals.rs"]
+mod intervals;
 #[path = "../src/keys.rs"]
 mod keys;
 #[path = "../src/line.rs"]
@@ -62,15 +65,20 @@ mod walk;
 #[path = "../src/wide_tree.rs"]
 mod wide_tree;
 
-use build::Built;
 use fibres::Fibres;
 use meshes::Meshes;
-use pieces::Piece;
+use moving_packs::MovingPacks;
+use moving_pieces::MovingPieces;
 use pose::Moment;
 use query::Query;
-use search::Nearest;
+use search::{Candidates, Nearest};
+use shares::Shares;
+use walk::walk;
+use wide_tree::WideTree;
 
-const ROUNDS: usize = 3;
+const ROUNDS: usize = 5;
+/// The tree of boxes of all keys is so slow that it gets only every so manieth ray.
+const NAIVE: usize = 16;
 const SEGMENTS: u32 = 24;
 
 /// Uniform numbers from a counter (SplitMix64).
@@ -127,19 +135,50 @@ fn spun(hair: &Hair, degrees: f32, keys: usize) -> Vec<Vec<Vec3>> {
         .collect()
 }
 
-/// The same strands under boxes that hold all keys, with nothing rejected by its line.
-fn around_all_keys(fibres: &Fibres) -> Built {
-    let mut pieces: Vec<Piece> = Vec::new();
-    let mut boxes = Vec::new();
-    for number in fibres.solid() {
-        let ((a, b), track) = (fibres.ends(number).unwrap(), fibres.tracks().of(number).unwrap());
-        let at = |number, key, end: Vec4| track.at(number, key, end.xyz()).extend(end.w);
-        let keys = 0..=track.intervals();
-        let around = keys.map(|key| bounds::of_segment(at(number, key, a), at(number + 1, key, b)));
-        boxes.push(around.reduce(|a, b| a.union(&b)).unwrap());
-        pieces.push(Piece { number, a: a.with_w(f32::INFINITY), b });
+/// The same strands and packs under boxes that hold all keys and stand still.
+struct AllKeys {
+    tree: WideTree,
+    packs: MovingPacks,
+    intervals: usize,
+    seconds: f64,
+}
+
+impl AllKeys {
+    fn build(fibres: &Fibres, meshes: &Meshes, intervals: usize) -> Self {
+        let start = Instant::now();
+        let pieces = MovingPieces::cut(&Moment { fibres, meshes, time: 0.5 }, intervals);
+        let around = |piece| {
+            let boxes = (0..=intervals).map(|key| pieces.ends(piece, key));
+            boxes.map(|(a, b)| bounds::of_segment(a, b)).reduce(|a, b| a.union(&b)).unwrap()
+        };
+        let binary =
+            build::binary(&pieces.all.iter().map(around).collect::<Vec<_>>(), BuildQuality::Standard);
+        let mut packs = MovingPacks::new(intervals + 1);
+        let tree = WideTree::from_binary(
+            &binary,
+            |_| true,
+            |places| packs.push(&pieces, places.iter().map(|&place| &pieces.all[place as usize])),
+        );
+        packs.finish();
+        Self { tree, packs, intervals, seconds: start.elapsed().as_secs_f64() }
     }
-    build::over(&boxes, &pieces, &[], BuildQuality::Standard)
+}
+
+impl Candidates for AllKeys {
+    #[inline(always)]
+    fn candidates<const ORDERED: bool>(
+        &self,
+        ray: &Ray,
+        far: &mut f32,
+        mut visit: impl FnMut(u32, &mut f32) -> bool,
+    ) {
+        let shares = Shares::of(f64::from(ray.time), self.intervals);
+        let sight = self.packs.sight(ray);
+        walk::<ORDERED>(&self.tree, ray, far, |leaf, far| {
+            let near = self.packs.near(&sight, &shares, leaf);
+            (0..4).any(|lane| near >> lane & 1 == 1 && visit(self.packs.number(leaf, lane), far))
+        });
+    }
 }
 
 fn camera_rays(side: u32, random: &mut Random) -> Vec<Ray> {
@@ -169,33 +208,29 @@ fn bounces(rays: &[Ray], tracer: &Tracer, random: &mut Random) -> Vec<(Ray, Opti
 
 type Asked = (Ray, Option<Primitive>);
 
-/// Millions of rays a second: primary, bounces, any hit of the bounces; and how many hit.
-fn rates(
-    rays: [&[Asked]; 2],
-    closest: impl Fn(&Asked) -> bool,
-    any: impl Fn(&Asked) -> bool,
-) -> ([f64; 3], usize) {
-    let mut hits = 0;
-    let mut rate = |rays: &[Asked], what: &dyn Fn(&Asked) -> bool| {
+/// Millions of rays a second: primary, bounces, any hit of the bounces.
+fn rates(rays: [&[Asked]; 2], closest: impl Fn(&Asked) -> bool, any: impl Fn(&Asked) -> bool) -> [f64; 3] {
+    let rate = |rays: &[Asked], what: &dyn Fn(&Asked) -> bool| {
         let start = Instant::now();
-        hits += rays.iter().filter(|asked| what(asked)).count();
+        black_box(rays.iter().filter(|asked| what(asked)).count());
         rays.len() as f64 / start.elapsed().as_secs_f64() / 1e6
     };
-    ([rate(rays[0], &closest), rate(rays[1], &closest), rate(rays[1], &any)], hits)
+    [rate(rays[0], &closest), rate(rays[1], &closest), rate(rays[1], &any)]
 }
 
 fn main() {
     let strands = std::env::var("BENCH_STRANDS").ok().and_then(|text| text.parse().ok()).unwrap_or(10_000);
+    let only = std::env::var("BENCH_ONLY").unwrap_or_default();
     let hair = ball(strands);
     println!("ball of {strands} strands, {} points; Mrays/s primary, bounce, any", hair.positions.len());
     let mut random = Random(7);
-    let primary = camera_rays(400, &mut random);
+    let primary = camera_rays(200, &mut random);
     let still = spun(&hair, 0.0, 1);
     let still = build(&hair, &still);
     let bytes = still.statistics().bytes;
     for degrees in [0.0, 5.0, 45.0] {
         for keys in [2, 3, 5, 9] {
-            if degrees == 0.0 && keys != 2 {
+            if degrees == 0.0 && keys != 2 || !format!("{degrees} {keys}").contains(&only) {
                 continue;
             }
             row(&hair, &still, &primary, bytes, degrees, keys);
@@ -224,9 +259,7 @@ fn row(hair: &Hair, still: &Tracer, primary: &[Ray], bytes: usize, degrees: f32,
     let moving = build(hair, &positions);
     let fibres = Fibres::gather(&[hair.strands(&positions[0], &moved)]).unwrap();
     let meshes = Meshes::default();
-    let start = Instant::now();
-    let around = around_all_keys(&fibres);
-    let around_seconds = start.elapsed().as_secs_f64();
+    let around = AllKeys::build(&fibres, &meshes, keys - 1);
     let mut random = Random(5);
     let secondary = bounces(primary, &moving, &mut random);
     let still_secondary = bounces(primary, still, &mut random);
@@ -235,8 +268,9 @@ fn row(hair: &Hair, still: &Tracer, primary: &[Ray], bytes: usize, degrees: f32,
         let pose = Moment { fibres: &fibres, meshes: &meshes, time: f64::from(ray.time) };
         Query::new(pose, ray, *left)
     };
+    let some = |rays: &[Asked]| rays.iter().step_by(NAIVE).copied().collect::<Vec<_>>();
+    let (few_first, few_second) = (some(&primary), some(&secondary));
     let mut best = [[0.0_f64; 3]; 3];
-    let mut counts = [0; 3];
     for _ in 0..ROUNDS {
         let found = [
             rates(
@@ -250,7 +284,7 @@ fn row(hair: &Hair, still: &Tracer, primary: &[Ray], bytes: usize, degrees: f32,
                 |(ray, left)| moving.occluded(ray, *left),
             ),
             rates(
-                [&primary, &secondary],
+                [&few_first, &few_second],
                 |asked| {
                     let query = naive(asked);
                     let mut nearest = Nearest::new(&asked.0);
@@ -260,19 +294,21 @@ fn row(hair: &Hair, still: &Tracer, primary: &[Ray], bytes: usize, degrees: f32,
                 |asked| search::any(&around, &naive(asked), &asked.0),
             ),
         ];
-        for (i, (rates, hits)) in found.into_iter().enumerate() {
-            best[i] = std::array::from_fn(|k| best[i][k].max(rates[k]));
-            counts[i] = hits;
+        for (best, found) in best.iter_mut().zip(found) {
+            *best = std::array::from_fn(|k| best[k].max(found[k]));
         }
     }
-    assert_eq!(counts[1], counts[2], "the two trees find the same");
+    for (ray, left) in &few_second {
+        let found = search::any(&around, &naive(&(*ray, *left)), ray);
+        assert_eq!(found, moving.occluded(ray, *left), "the two trees find the same");
+    }
     let [of_still, of_moving, of_naive] = best;
     let statistics = moving.statistics();
     let ratios =
         |a: [f64; 3], b: [f64; 3]| format!("{:.2} {:.2} {:.2}", a[0] / b[0], a[1] / b[1], a[2] / b[2]);
     println!(
         "  {degrees:2} degrees, {keys} keys: {:.2} {:.2} {:.2}; over boxes of all keys {}; over still {}; \
-         build {:.2} s (still {:.2}, all keys {around_seconds:.2}); {:.1} MB + {:.1} MB a further key",
+         build {:.2} s (still {:.2}, all keys {:.2}); {:.1} MB + {:.1} MB a further key",
         of_moving[0],
         of_moving[1],
         of_moving[2],
@@ -280,6 +316,7 @@ fn row(hair: &Hair, still: &Tracer, primary: &[Ray], bytes: usize, degrees: f32,
         ratios(of_moving, of_still),
         statistics.build_seconds,
         still.statistics().build_seconds,
+        around.seconds,
         bytes as f64 / 1e6,
         (statistics.bytes - bytes) as f64 / (keys - 1) as f64 / 1e6,
     );

@@ -64,12 +64,7 @@ pub(crate) fn tree(fibres: &Fibres, meshes: &Meshes, options: &BuildOptions) -> 
         .map(|piece| bounds::of_segment(piece.a, piece.b))
         .chain(triangles.iter().map(corners))
         .collect();
-    Built { bounds, ..over(&boxes, &pieces, &triangles, options.quality) }
-}
-
-/// The tree over the boxes of pieces and triangles, given in this order.
-pub(crate) fn over(boxes: &[Aabb], pieces: &[Piece], triangles: &[u32], quality: BuildQuality) -> Built {
-    let binary = binary(boxes, quality);
+    let binary = binary(&boxes, options.quality);
     let mut packs = Packs::default();
     let packed = |place: u32| (place as usize) < pieces.len();
     let tree = WideTree::from_binary(&binary, packed, |places| match places {
@@ -77,7 +72,7 @@ pub(crate) fn over(boxes: &[Aabb], pieces: &[Piece], triangles: &[u32], quality:
         places => packs.push(places.iter().filter_map(|&place| pieces.get(place as usize))),
     });
     packs.finish();
-    Built { tree, packs, bounds: around(boxes.iter().copied()) }
+    Built { tree, packs, bounds }
 }
 
 /// The box round everything; two zeros where there is nothing.

@@ -49,6 +49,7 @@ mod fibres;
 mod hit;
 mod input;
 mod inside;
+mod intervals;
 mod keys;
 mod line;
 mod meshes;

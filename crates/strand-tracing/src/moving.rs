@@ -11,10 +11,7 @@ use crate::moving_pieces::MovingPieces;
 use crate::moving_tree::MovingTree;
 use crate::moving_triangles::MovingTriangles;
 use crate::pose::Moment;
-use crate::{BuildOptions, bounds};
-
-/// Most intervals of the shutter that a tree has boxes for; objects of more keys are followed loosely.
-const MOST_INTERVALS: usize = 16;
+use crate::{BuildOptions, bounds, intervals};
 
 /// A tree over what moves.
 #[derive(Clone, Debug)]
@@ -33,7 +30,7 @@ impl Moving {
         if fibres.tracks().is_empty() && meshes.tracks().is_empty() {
             return None;
         }
-        let intervals = intervals(fibres.tracks().intervals().chain(meshes.tracks().intervals()));
+        let intervals = intervals::of(fibres, meshes);
         let pieces = MovingPieces::cut(&Moment { fibres, meshes, time: 0.5 }, intervals);
         let triangles = MovingTriangles::gather(meshes, intervals);
         let around = |key: usize| -> Vec<Aabb> {
@@ -58,13 +55,6 @@ impl Moving {
     pub(crate) fn bytes(&self) -> usize {
         self.tree.bytes() + self.packs.bytes()
     }
-}
-
-/// Intervals for a tree: every object's keys are among its own, unless those are too many.
-fn intervals(of_objects: impl Iterator<Item = usize> + Clone) -> usize {
-    let most = of_objects.clone().max().unwrap_or(1).clamp(1, MOST_INTERVALS);
-    let multiple = |count: usize| of_objects.clone().all(|intervals| count.is_multiple_of(intervals.max(1)));
-    (most..=MOST_INTERVALS).find(|&count| multiple(count)).unwrap_or(most)
 }
 
 /// Boxes of the mean low and high planes at all keys: what is near on average is near in the tree.
@@ -98,16 +88,4 @@ fn everywhere(fibres: &Fibres, meshes: &Meshes) -> (Vec3, Vec3) {
         keys.map(|key| bounds::of_triangle(&track.at(number, key, *first))).reduce(|a, b| a.union(&b))
     });
     build::around(segments.chain(triangles))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_tree_has_the_keys_of_all_objects_if_they_are_few() {
-        let of = |counts: &[usize]| intervals(counts.iter().copied());
-        assert_eq!([of(&[1]), of(&[4]), of(&[1, 2]), of(&[2, 3]), of(&[4, 6])], [1, 4, 2, 6, 12]);
-        assert_eq!([of(&[8, 7]), of(&[16]), of(&[63]), of(&[63, 2])], [8, 16, 16, 16]);
-    }
 }

@@ -51,6 +51,22 @@ impl<'a> MovingPieces<'a> {
         pieces
     }
 
+    /// How far some of the segments stray and how thick they are, for a tree of so many intervals.
+    pub(crate) fn strays(
+        fibres: &'a Fibres,
+        intervals: usize,
+        samples: usize,
+    ) -> impl Iterator<Item = (f64, f64)> {
+        let pieces = Self { fibres, intervals, all: Vec::new() };
+        let moving = move |&number: &u32| fibres.tracks().of(number).is_some();
+        let step = fibres.solid().filter(moving).count() / samples + 1;
+        fibres.solid().filter(moving).step_by(step).filter_map(move |number| {
+            let (a, b) = fibres.ends(number)?;
+            let stray = pieces.stray(&MovingPiece { number, part: 0, count: 1, stray: 0.0 });
+            Some((stray, f64::from(a.w.abs().max(b.w.abs()))))
+        })
+    }
+
     /// The ends of a piece at a key of the tree, with radii.
     pub(crate) fn ends(&self, piece: &MovingPiece, key: usize) -> (Vec4, Vec4) {
         let [a, b] = self.centres(piece, self.time(key));

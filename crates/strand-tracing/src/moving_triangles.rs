@@ -27,6 +27,23 @@ impl<'a> MovingTriangles<'a> {
         triangles
     }
 
+    /// How far some of the triangles stray and how large they are, for a tree of so many intervals.
+    pub(crate) fn strays(
+        meshes: &'a Meshes,
+        intervals: usize,
+        samples: usize,
+    ) -> impl Iterator<Item = (f64, f64)> {
+        let triangles = Self { meshes, intervals, all: Vec::new() };
+        let moving = move |&number: &u32| meshes.tracks().of(number).is_some();
+        let all = 0..meshes.all().len() as u32;
+        let step = all.clone().filter(moving).count() / samples + 1;
+        all.filter(moving).step_by(step).filter_map(move |number| {
+            let corners = meshes.all().get(number as usize)?.map(|corner| corner.as_dvec3());
+            let stray = triangles.stray(meshes.tracks().of(number)?, number);
+            Some((stray, (corners[1] - corners[0]).length().max((corners[2] - corners[0]).length())))
+        })
+    }
+
     /// Round a triangle at a key of the tree.
     pub(crate) fn around(&self, &(number, stray): &(u32, f64), key: usize) -> Aabb {
         let Some(track) = self.meshes.tracks().of(number) else { return Aabb::empty() };
