@@ -307,8 +307,9 @@ fn row(hair: &Hair, still: &Tracer, primary: &[Ray], bytes: usize, degrees: f32,
     let ratios =
         |a: [f64; 3], b: [f64; 3]| format!("{:.2} {:.2} {:.2}", a[0] / b[0], a[1] / b[1], a[2] / b[2]);
     println!(
-        "  {degrees:2} degrees, {keys} keys: {:.2} {:.2} {:.2}; over boxes of all keys {}; over still {}; \
+        "  {degrees:2} degrees, {keys} keys ({} of the tree): {:.2} {:.2} {:.2}; over boxes of all keys {}; over still {}; \
          build {:.2} s (still {:.2}, all keys {:.2}); {:.1} MB + {:.1} MB a further key",
+        statistics.tree_keys,
         of_moving[0],
         of_moving[1],
         of_moving[2],

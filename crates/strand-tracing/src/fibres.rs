@@ -31,6 +31,9 @@ pub(crate) struct Fibres {
 impl Fibres {
     pub(crate) fn gather(strands: &[Strands]) -> Result<Self, TracingError> {
         let mut fibres = Self::default();
+        for (object, strands) in strands.iter().enumerate() {
+            keys::check_points(object, strands)?;
+        }
         if strands.iter().all(|s| s.positions.is_empty()) {
             return Ok(fibres);
         }
@@ -50,7 +53,6 @@ impl Fibres {
     fn append(&mut self, object: usize, strands: &Strands) -> Result<(), TracingError> {
         check_offsets(object, strands)?;
         check_radii(object, strands)?;
-        keys::check_points(object, strands)?;
         let base = self.points.len() as u32;
         for (point, &position) in strands.positions.iter().enumerate() {
             if !position.is_finite() {

@@ -19,12 +19,14 @@ pub(crate) struct Meshes {
 impl Meshes {
     pub(crate) fn gather(triangles: &[Triangles]) -> Result<Self, TracingError> {
         let mut meshes = Self::default();
+        for (object, triangles) in triangles.iter().enumerate() {
+            keys::check_vertices(object, triangles)?;
+        }
         if triangles.iter().all(|t| t.indices.is_empty()) {
             return Ok(meshes);
         }
         meshes.vertices.reserve_exact(triangles.iter().map(|t| t.indices.len()).sum());
         for (object, triangles) in triangles.iter().enumerate() {
-            keys::check_vertices(object, triangles)?;
             let first = meshes.vertices.len() as u32;
             meshes.objects.push(first);
             for (triangle, &corners) in triangles.indices.iter().enumerate() {

@@ -25,7 +25,7 @@ pub(crate) struct Moving {
 }
 
 impl Moving {
-    /// None where nothing moves.
+    /// None where nothing moves that can be hit.
     pub(crate) fn build(fibres: &Fibres, meshes: &Meshes, options: &BuildOptions) -> Option<Self> {
         if fibres.tracks().is_empty() && meshes.tracks().is_empty() {
             return None;
@@ -33,6 +33,9 @@ impl Moving {
         let intervals = intervals::of(fibres, meshes);
         let pieces = MovingPieces::cut(&Moment { fibres, meshes, time: 0.5 }, intervals);
         let triangles = MovingTriangles::gather(meshes, intervals);
+        if pieces.all.is_empty() && triangles.all.is_empty() {
+            return None;
+        }
         let around = |key: usize| -> Vec<Aabb> {
             let segments = pieces.all.iter().map(|piece| {
                 let (a, b) = pieces.ends(piece, key);

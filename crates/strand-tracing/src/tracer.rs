@@ -32,8 +32,11 @@ pub struct Statistics {
     pub segments: usize,
     /// Triangles.
     pub triangles: usize,
-    /// Nodes of the tree.
+    /// Nodes of the tree, or of both: of what stands still and of what moves.
     pub nodes: usize,
+    /// Keys of the tree over what moves, 0 where nothing does. No more than the objects' paths need to be
+    /// followed closely.
+    pub tree_keys: usize,
     /// Memory held, in bytes.
     pub bytes: usize,
     /// Seconds the build took.
@@ -60,6 +63,7 @@ impl Tracer {
             segments: fibres.solid().count(),
             triangles: meshes.all().len(),
             nodes: built.tree.node_count() + moving.as_ref().map_or(0, |moving| moving.tree.node_count()),
+            tree_keys: moving.as_ref().map_or(0, |moving| moving.intervals + 1),
             bytes: fibres.bytes() + meshes.bytes() + built.bytes() + moving.as_ref().map_or(0, Moving::bytes),
             build_seconds: start.elapsed().as_secs_f64(),
         };

@@ -244,10 +244,25 @@ fn what_stands_still_costs_nothing() {
         (tracer.statistics().bytes, tracer.statistics().nodes)
     };
     assert_eq!(of(&same_keys), of(&scene));
+    assert_eq!([scene.moving(), moving_mesh.moving()].map(|t| t.statistics().tree_keys), [0, 2]);
     let (bytes, _) = of(&scene);
     let (more, _) = of(&moving_mesh);
     // A dozen triangles move: a few boxes and corners, and nothing for the hair.
     assert!(more > bytes && more < bytes + 4000, "{bytes} {more}");
+}
+
+#[test]
+fn what_cannot_be_hit_does_not_move_the_scene() {
+    let (here, there) = ([Vec3::X, Vec3::ONE], [Vec3::splat(50.0), Vec3::splat(60.0)]);
+    let radii = Radii::Constant(0.0);
+    let nothing = Strands { offsets: &[0, 2], positions: &here, radii, moved: &[&there] };
+    let still = Strands { radii: Radii::Constant(0.1), moved: &[], ..nothing };
+    let tracer = Tracer::build(&[nothing, still], &[], &BuildOptions::default()).unwrap();
+    assert!(tracer.bounds().0.cmpge(vec3(0.89, -0.11, -0.11)).all() && tracer.bounds().1.max_element() < 1.2);
+    let ray = Ray { origin: vec3(1.0, 0.5, 5.0), direction: Vec3::NEG_Z, t_max: 9.0, time: f32::NAN };
+    assert!(tracer.occluded(&ray, None));
+    let nothing = Tracer::build(&[nothing], &[], &BuildOptions::default()).unwrap();
+    assert_eq!(nothing.bounds(), (Vec3::ZERO, Vec3::ZERO));
 }
 
 #[test]
@@ -271,6 +286,7 @@ fn keys_that_do_not_fit_are_named() {
     assert_eq!(triangles(&[&[]], &[[0, 1, 2]]).unwrap_err(), expected);
     let error = triangles(&[&nan], &[[0, 1, 2]]).unwrap_err();
     assert!(matches!(error, TracingError::MovedVertex { object: 0, key: 1, vertex: 2, .. }), "{error}");
+    assert!(matches!(triangles(&[&[]], &[]).unwrap_err(), TracingError::MovedVertices { found: 0, .. }));
     // A vertex no triangle has is not asked for, as at the first key.
     assert!(triangles(&[&nan], &[[0, 1, 1]]).is_ok());
 }
