@@ -47,7 +47,9 @@ impl MotionOptions {
 /// Writes a groom that moves to `path`: everything but the positions is `groom`'s, `frames` come in the order
 /// of their times. One frame is in memory at a time.
 ///
-/// `.usda`, `.usdc`, `.usdz` and `.abc` can hold motion.
+/// `.usda`, `.usdc`, `.usdz` and `.abc` hold positions a frame; `.glb` and `.gltf` hold them as morph targets, for a
+/// few dozen frames ([`Warning::ManyMorphTargets`]) of lines: 12 bytes a point and frame, no velocities, times from 0 on.
+/// [`write_rigged`](crate::write_rigged) is smaller where joints move the strands.
 ///
 /// # Errors
 /// [`FormatError`], an error that `frames` brings included; the old file at `path`, if any, is then untouched.
@@ -65,8 +67,12 @@ pub fn write_animation(
         .ok_or_else(|| FormatError::UnknownFormat { file: name.clone(), expected: endings(holds_motion) })?;
     check::values(groom, &name)?;
     frame_check::options(motion, &name)?;
-    let mut stream = BufWriter::with_capacity(BUFFER, Output::create(path)?);
     let motion = Motion { groom, frames, options: motion };
+    #[cfg(feature = "gltf")]
+    if matches!(format, Format::Gltf | Format::Glb) {
+        return crate::gltf::write_animation(motion, format, path, &name, options);
+    }
+    let mut stream = BufWriter::with_capacity(BUFFER, Output::create(path)?);
     let warnings = match format {
         #[cfg(feature = "alembic")]
         Format::Alembic => crate::alembic::write_animation(motion, &mut stream, &name, options)?,
@@ -87,5 +93,6 @@ pub(crate) struct Motion<'a> {
 }
 
 fn holds_motion(format: Format) -> bool {
-    matches!(format, Format::Usda | Format::Usdc | Format::Usdz | Format::Alembic)
+    let usd = matches!(format, Format::Usda | Format::Usdc | Format::Usdz);
+    usd || matches!(format, Format::Alembic | Format::Gltf | Format::Glb)
 }

@@ -108,6 +108,7 @@ mod ply;
 #[cfg(any(feature = "alembic", feature = "usda", feature = "usdc", feature = "usdz"))]
 mod polylines;
 mod read;
+mod rig;
 #[cfg(any(feature = "usda", feature = "usdc", feature = "usdz"))]
 mod room;
 #[cfg(feature = "hair")]
@@ -129,6 +130,7 @@ pub use frames::{Frames, MovingGroom, read_frames, read_moving};
 pub use options::{Dialect, HairExtras, Loaded, Look, Mesh, ReadOptions, WriteOptions};
 pub use output::Output;
 pub use read::{read, read_from};
+pub use rig::{Influences, Rig, RigFrame, RigJoint, write_rigged};
 #[cfg(feature = "hair")]
 pub use stream::{Streamed, convert_streaming, convert_streaming_with};
 pub use warning::Warning;

@@ -183,6 +183,37 @@ pub enum Warning {
         /// The attribute's name in the groom.
         name: String,
     },
+    /// More frames than viewers like as morph targets.
+    #[error(
+        "{format} holds every frame as a morph target: {targets} of them are {} MB, and many viewers are slow or \
+         refuse beyond some dozens; joints are smaller",
+        .bytes / 1_000_000
+    )]
+    ManyMorphTargets {
+        /// The format written.
+        format: Format,
+        /// How many.
+        targets: usize,
+        /// Their bytes.
+        bytes: u64,
+    },
+    /// A joint does what translation, rotation and scale cannot: it shears, or its scale has more digits than the
+    /// format keeps.
+    #[error(
+        "{format} keeps translation, rotation and scale of joints: at frame {time} the strands of `{joint}` are off \
+         by up to {:.2e} of the groom's size, the most of all",
+        .part
+    )]
+    JointsApproximated {
+        /// The format written.
+        format: Format,
+        /// The joint whose strands are off most.
+        joint: String,
+        /// When.
+        time: f64,
+        /// The distance, in sizes of the groom.
+        part: f64,
+    },
     /// Positions were rounded to a grid, as was asked.
     #[error("{format} holds positions in {bits} bits; they are off by up to {error:.1e} m")]
     PositionsRounded {

@@ -148,38 +148,13 @@ fn write_gltf(
     options: &WriteOptions,
 ) -> Result<Vec<Warning>, FormatError> {
     check::values(groom, name)?;
-    let bytes_path = path.with_extension("bin");
-    let bytes_name = bytes_path.file_name().unwrap_or_default().as_encoded_bytes();
     let plan = crate::gltf::Plan::new(groom, Format::Gltf, name, options)?;
-    let bytes_file = bytes_path.display().to_string();
-    let (bytes, ()) = filled(&bytes_path, &bytes_file, |stream| {
-        plan.write_bytes(stream).map_err(|e| FormatError::io(&bytes_file, e))
-    })?;
-    let (document, ()) = filled(path, name, |stream| {
-        let json = plan.json(Some(bytes_name)).map_err(|e| FormatError::io(name, e))?;
-        stream.write_all(&json).map_err(|e| FormatError::io(name, e))
-    })?;
-    bytes.commit()?;
-    document.commit()?;
-    Ok(plan.into_warnings())
+    crate::gltf::write_files(plan, Format::Gltf, path, name)
 }
 
 #[cfg(not(feature = "gltf"))]
 fn write_gltf(_: &Groom, _: &Path, name: &str, _: &WriteOptions) -> Result<Vec<Warning>, FormatError> {
     Err(unwritable(Format::Gltf, name))
-}
-
-/// Runs `body` on a buffered output; what comes back is written but not yet in its place.
-#[cfg(feature = "gltf")]
-fn filled<T>(
-    path: &Path,
-    name: &str,
-    body: impl FnOnce(&mut BufWriter<Output>) -> Result<T, FormatError>,
-) -> Result<(Output, T), FormatError> {
-    let mut stream = BufWriter::with_capacity(BUFFER, Output::create(path)?);
-    let done = body(&mut stream)?;
-    let output = stream.into_inner().map_err(|e| FormatError::io(name, e.into_error()))?;
-    Ok((output, done))
 }
 
 fn refuse_unwritable(format: Format, name: &str) -> Result<(), FormatError> {

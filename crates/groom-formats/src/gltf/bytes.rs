@@ -9,6 +9,7 @@ use groom::{Domain, Values};
 use super::Plan;
 use super::blocks::Blocks;
 use super::extra::Extra;
+use super::moving::Moving;
 use super::runs::runs;
 use super::surface;
 use super::views::Content;
@@ -35,9 +36,23 @@ pub(super) fn write(plan: &Plan<'_>, stream: &mut impl Write) -> io::Result<()> 
                 each_vertex(plan, stream, |strand, vertex| plan.width(radii.get(strand, vertex)))?;
             }
             Content::Extra(extra) => custom(plan, extra, stream)?,
+            Content::Joints => joints(plan, stream)?,
+            Content::Weights => {
+                let Moving::Skin(skin) = &plan.moving else { continue };
+                each_vertex(plan, stream, |strand, _| skin.influences(strand).weights)?;
+            }
         }
     }
     Ok(())
+}
+
+fn joints(plan: &Plan<'_>, stream: &mut impl Write) -> io::Result<()> {
+    let Moving::Skin(skin) = &plan.moving else { return Ok(()) };
+    if skin.is_wide() {
+        each_vertex(plan, stream, |strand, _| skin.influences(strand).joints.map(|joint| joint as u16))
+    } else {
+        each_vertex(plan, stream, |strand, _| skin.influences(strand).joints.map(|joint| joint as u8))
+    }
 }
 
 fn lines(plan: &Plan<'_>, stream: &mut impl Write) -> io::Result<()> {

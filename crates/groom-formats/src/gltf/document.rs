@@ -3,16 +3,19 @@
 use std::collections::BTreeMap;
 use std::io;
 
-use gltf::json::accessor::GenericComponentType;
+use gltf::json::accessor::{ComponentType, GenericComponentType};
 use gltf::json::buffer::{Stride, Target, View};
 use gltf::json::extras::RawValue;
 use gltf::json::material::{AlphaMode, PbrBaseColorFactor, PbrMetallicRoughness, StrengthFactor};
-use gltf::json::mesh::{Mode, Primitive};
+use gltf::json::mesh::{Mode, MorphTarget, Primitive};
 use gltf::json::validation::Checked::{self, Valid};
 use gltf::json::validation::USize64;
 use gltf::json::{Accessor, Buffer, Index, Material, Mesh, Node, Root, Scene, serialize};
 use gltf::mesh::Semantic;
 
+use super::moving::Moving;
+use super::nodes;
+use super::tail::Stored;
 use super::Plan;
 use super::surface::Surface;
 use super::views::{self, Field};
@@ -27,8 +30,10 @@ pub(super) fn json(plan: &Plan<'_>, bytes_name: Option<&[u8]>) -> io::Result<Vec
         extensions: None,
         extras: None,
     });
-    let primitive = builder.primitive(plan);
-    builder.place(plan, primitive)?;
+    let mut primitive = builder.primitive(plan);
+    let tail: Vec<Index<Accessor>> = plan.tail.arrays.iter().map(|array| builder.stored(array)).collect();
+    primitive.targets = targets(plan, &tail);
+    builder.place(plan, primitive, &tail)?;
     // A document is read by people when it stands alone.
     let bytes = match bytes_name {
         Some(_) => serialize::to_vec_pretty(&builder.root),
@@ -100,32 +105,85 @@ impl Builder {
         })
     }
 
-    /// Puts the primitive into a mesh, a node and the scene.
-    fn place(&mut self, plan: &Plan<'_>, primitive: Primitive) -> io::Result<()> {
+    /// Describes an array behind those of the mesh.
+    fn stored(&mut self, array: &Stored) -> Index<Accessor> {
+        let place = self.root.push(View {
+            buffer: self.buffer,
+            byte_length: array.bytes().into(),
+            byte_offset: Some(self.used.into()),
+            byte_stride: array.is_vertex.then_some(Stride(12)),
+            name: None,
+            target: array.is_vertex.then_some(Valid(Target::ArrayBuffer)),
+            extensions: None,
+            extras: None,
+        });
+        self.used += array.bytes();
+        let field = Field::new(None, ComponentType::F32, array.kind);
+        self.accessor(place, array.count, &Field { bounds: array.bounds.clone(), ..field })
+    }
+
+    /// Puts the primitive into a mesh, a node and the scene, with what moves it.
+    fn place(
+        &mut self,
+        plan: &Plan<'_>,
+        primitive: Primitive,
+        tail: &[Index<Accessor>],
+    ) -> io::Result<()> {
         let extras = match &plan.marks {
             Some(marks) => Some(RawValue::from_string(marks.to_string()).map_err(io::Error::other)?),
             None => None,
         };
+        let weights = primitive.targets.as_ref().map(|targets| vec![0.0; targets.len()]);
         let mesh = self.root.push(Mesh {
             extensions: None,
             extras,
             name: Some("Strands".to_owned()),
             primitives: vec![primitive],
-            weights: None,
+            weights,
         });
         let mut node = Node { mesh: Some(mesh), name: Some("Groom".to_owned()), ..Node::default() };
         if let Some(grid) = plan.grid.filter(|grid| grid.is_stored()) {
-            node.translation = Some(grid.translation().to_array());
-            node.scale = Some([grid.scale(); 3]);
+            // A skin places the integers itself; the node of its mesh does not count.
+            if !matches!(plan.moving, Moving::Skin(_)) {
+                node.translation = Some(grid.translation().to_array());
+                node.scale = Some([grid.scale(); 3]);
+            }
             let extension = "KHR_mesh_quantization".to_owned();
             self.root.extensions_used.push(extension.clone());
             self.root.extensions_required.push(extension);
         }
-        let nodes = vec![self.root.push(node)];
+        let mut nodes = Vec::new();
+        match &plan.moving {
+            Moving::Nothing => nodes.push(self.root.push(node)),
+            Moving::Skin(skin) => {
+                let (skin, joints) = nodes::skin(&mut self.root, skin, tail);
+                node.skin = Some(skin);
+                nodes.push(self.root.push(node));
+                nodes.extend(joints);
+            }
+            Moving::Morphs(morphs) => {
+                let place = morphs.origin.as_vec3();
+                node.translation = (place != glam::Vec3::ZERO).then_some(place.to_array());
+                let node = self.root.push(node);
+                nodes::morphs(&mut self.root, node, morphs, tail);
+                nodes.push(node);
+            }
+        }
         let scene = Scene { extensions: None, extras: None, name: None, nodes };
         self.root.scene = Some(self.root.push(scene));
         Ok(())
     }
+}
+
+/// What the frames of a mesh move its vertices by.
+fn targets(plan: &Plan<'_>, tail: &[Index<Accessor>]) -> Option<Vec<MorphTarget>> {
+    let Moving::Morphs(morphs) = &plan.moving else { return None };
+    let target = |place: &usize| {
+        let positions = tail.get(*place).copied();
+        MorphTarget { positions, normals: None, tangents: None }
+    };
+    let targets: Vec<MorphTarget> = morphs.targets.iter().map(target).collect();
+    (!targets.is_empty()).then_some(targets)
 }
 
 /// White, so that COLOR_0 shows as it is; glTF's default material is a metal, which hair is not. Alpha

@@ -15,11 +15,12 @@ pub(crate) fn write_glb(
     options: &WriteOptions,
 ) -> Result<Vec<Warning>, FormatError> {
     let plan = Plan::new(groom, Format::Glb, file, options)?;
-    glb(&plan, stream).map_err(|e| FormatError::io(file, e))?;
+    self::write(&plan, stream).map_err(|e| FormatError::io(file, e))?;
     Ok(plan.into_warnings())
 }
 
-fn glb(plan: &Plan<'_>, stream: &mut impl Write) -> io::Result<()> {
+/// Writes all of the container.
+pub(super) fn write(plan: &Plan<'_>, stream: &mut impl Write) -> io::Result<()> {
     let mut json = plan.json(None)?;
     json.resize(json.len().next_multiple_of(4), b' ');
     // The plan saw to it that the sum fits.

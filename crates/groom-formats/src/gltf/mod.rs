@@ -8,6 +8,13 @@
 //! is below 1) and `_WIDTH`, the diameter: a single custom attribute, because Blender 5.0.1 mixes up several
 //! of different size. Y is up and the unit is the metre, so points and widths are turned and scaled.
 //!
+//! # Motion
+//!
+//! Joints ([`write_rigged`](crate::write_rigged)) become a skin: JOINTS_0 and WEIGHTS_0, the same for all vertices of a
+//! strand, and keys for what changes of every joint. Frames of positions ([`write_animation`](crate::write_animation))
+//! become morph targets, 12 bytes a point and frame, the first frame being the mesh. An origin is the translation of a
+//! node, which readers keep in 32 bits: the strands keep their shape, the place is rounded.
+//!
 //! # Options
 //!
 //! [`mesh`](crate::WriteOptions::mesh) makes triangles of the strands: [`surface`]. POSITION, NORMAL, TEXCOORD_0 and
@@ -29,15 +36,24 @@ mod bytes;
 mod colors;
 mod document;
 mod extra;
+mod files;
 mod glb;
 mod grid;
+mod morphs;
+mod moving;
+mod nodes;
 mod plan;
 mod read;
 mod runs;
+mod skin;
 mod space;
 mod surface;
+mod tail;
 mod views;
 
+pub(crate) use files::write as write_files;
 pub(crate) use glb::write_glb;
+pub(crate) use morphs::write_animation;
 pub(crate) use plan::Plan;
 pub(crate) use read::read;
+pub(crate) use skin::write_rigged;

@@ -9,8 +9,10 @@ use groom::{FloatView, Groom, names};
 use super::colors::Colors;
 use super::grid::Grid;
 use super::runs::runs;
+use super::moving::Moving;
 use super::space::Space;
 use super::surface::{self, Surface};
+use super::tail::Tail;
 use super::views::{self, View};
 use super::{bytes, document, extra};
 use crate::drawable::Drawable;
@@ -34,7 +36,10 @@ pub(crate) struct Plan<'a> {
     pub(super) views: Vec<View<'a>>,
     /// The `extras` of the mesh.
     pub(super) marks: Option<Value>,
-    warnings: Vec<Warning>,
+    /// Arrays behind those of the mesh.
+    pub(super) tail: Tail,
+    pub(super) moving: Moving<'a>,
+    pub(super) warnings: Vec<Warning>,
 }
 
 impl<'a> Plan<'a> {
@@ -73,6 +78,8 @@ impl<'a> Plan<'a> {
             surface,
             views: Vec::new(),
             marks: None,
+            tail: Tail::default(),
+            moving: Moving::Nothing,
             warnings,
         };
         plan.refuse_infinite(format, file, options.quantize.is_some())?;
@@ -88,6 +95,16 @@ impl<'a> Plan<'a> {
         Ok(plan)
     }
 
+    /// Adds what moves the mesh; its arrays are in the tail.
+    pub(super) fn follow(&mut self, moving: Moving<'a>, format: Format, file: &str) -> Result<(), FormatError> {
+        if let Moving::Skin(skin) = &moving {
+            let vertices = self.drawable.points * self.surface.as_ref().map_or(1, Surface::per_point);
+            self.views.extend(views::of_skin(skin, vertices));
+        }
+        self.moving = moving;
+        self.refuse_too_large(format, file)
+    }
+
     pub(crate) fn into_warnings(self) -> Vec<Warning> {
         self.warnings
     }
@@ -99,12 +116,13 @@ impl<'a> Plan<'a> {
 
     /// The buffer the document describes.
     pub(crate) fn write_bytes(&self, stream: &mut impl Write) -> io::Result<()> {
-        bytes::write(self, stream)
+        bytes::write(self, stream)?;
+        self.tail.write(stream)
     }
 
     /// Bytes of the whole buffer.
     pub(super) fn buffer_bytes(&self) -> u64 {
-        self.views.iter().map(View::bytes).sum()
+        self.views.iter().map(View::bytes).sum::<u64>() + self.tail.bytes()
     }
 
     /// The diameter for a radius, in the mesh's units.

@@ -7,6 +7,7 @@ use gltf::mesh::Semantic;
 
 use super::Plan;
 use super::extra::Extra;
+use super::skin::Skin;
 use super::surface::Surface;
 
 /// One array of the buffer: equal elements one after the other, each of one or several fields.
@@ -37,6 +38,8 @@ pub(super) enum Content<'a> {
     Colors,
     Widths,
     Extra(Extra<'a>),
+    Joints,
+    Weights,
 }
 
 /// A field of an element.
@@ -131,6 +134,17 @@ pub(super) fn of_surface<'a>(
     let mut views = vec![indices, View { content: Content::Surface, count, stride, fields }];
     views.extend(extras.iter().map(|(name, extra)| of_extra(name, *extra, count)));
     views
+}
+
+/// What a skin asks of every vertex.
+pub(super) fn of_skin<'a>(skin: &Skin<'_>, count: usize) -> [View<'a>; 2] {
+    let (component, stride) = if skin.is_wide() { (ComponentType::U16, 8) } else { (ComponentType::U8, 4) };
+    let joints = vec![Field::new(Some(Semantic::Joints(0)), component, Type::Vec4)];
+    let weights = vec![Field::new(Some(Semantic::Weights(0)), ComponentType::F32, Type::Vec4)];
+    [
+        View { content: Content::Joints, count, stride, fields: joints },
+        View { content: Content::Weights, count, stride: 16, fields: weights },
+    ]
 }
 
 fn of_extra<'a>(name: &str, extra: Extra<'a>, count: usize) -> View<'a> {

@@ -18,7 +18,8 @@ pub(super) fn of(points: &Array<'_>, widths: &Array<'_>) -> [[f32; 3]; 2] {
     [min.map(|v| v - radius), max.map(|v| v + radius)]
 }
 
-fn largest(widths: &Array<'_>) -> f32 {
+/// The largest width.
+pub(super) fn largest(widths: &Array<'_>) -> f32 {
     let mut largest = 0.0_f32;
     if let Rows::Floats(values) = widths.rows {
         widths.each(values, 0..widths.items(), |_, width| largest = largest.max(width));

@@ -18,6 +18,10 @@
 //! In motion, `points`, `extent` and `velocities` are sampled at the same times, as UsdGeom wants; all else is
 //! said once.
 //!
+//! Joints ([`write_rigged`](crate::write_rigged)) are UsdSkel: `/Groom` is a SkelRoot, `/Groom/Skeleton` has a
+//! SkelAnimation below it, and the curves have `primvars:skel:jointIndices` and `jointWeights` per vertex, because of
+//! values per curve (`uniform`) UsdSkel bakes nothing and does not say so.
+//!
 //! # Dialects
 //!
 //! What [`Dialect`](crate::Dialect) changes; all of them stay valid USD for everybody else.
@@ -34,13 +38,12 @@ mod array;
 mod crate_sink;
 mod curves;
 mod extent;
-#[allow(dead_code)] // until skeletons are written
 mod half;
 mod material;
 mod motion;
 mod primvars;
-#[allow(dead_code)] // until skeletons are written
 mod sink;
+mod skeleton;
 mod stage;
 #[cfg(feature = "usda")]
 mod text_sink;
@@ -52,6 +55,7 @@ use groom::{Groom, names};
 use usd_layer::write::{CrateWriter, PackageWriter, WriteError};
 
 use crate::animation::Motion;
+use crate::rig::RigMotion;
 use crate::usd::write::curves::Curves;
 use crate::usd::write::sink::Sink;
 use crate::usd::write::stage::Stage;
@@ -72,7 +76,7 @@ pub(crate) fn write_usda(
     let job = Job { format: Format::Usda, file, options };
     let curves = job.curves(groom, &mut warnings)?;
     let mut sink = text_sink::TextSink::new(stream, &curves);
-    job.fill(&mut sink, &curves, None, &mut warnings)?;
+    job.fill(&mut sink, &curves, Moves::Nothing, &mut warnings)?;
     sink.finish().map_err(|e| FormatError::io(file, e))?;
     Ok(warnings)
 }
@@ -89,7 +93,7 @@ pub(crate) fn write_crate(
     let job = Job { format, file, options };
     let mut warnings = Vec::new();
     let curves = job.curves(groom, &mut warnings)?;
-    job.fill_crate(stream, &curves, None, &mut warnings)?;
+    job.fill_crate(stream, &curves, Moves::Nothing, &mut warnings)?;
     Ok(warnings)
 }
 
@@ -108,15 +112,54 @@ pub(crate) fn write_animation(
         #[cfg(feature = "usda")]
         Format::Usda => {
             let mut sink = text_sink::TextSink::new(stream, &curves);
-            job.fill(&mut sink, &curves, Some(motion), &mut warnings)?;
+            job.fill(&mut sink, &curves, Moves::Points(motion), &mut warnings)?;
             sink.finish().map_err(|e| FormatError::io(file, e))?;
         }
         #[cfg(feature = "usdc")]
-        _ => job.fill_crate(stream, &curves, Some(motion), &mut warnings)?,
+        _ => job.fill_crate(stream, &curves, Moves::Points(motion), &mut warnings)?,
         #[cfg(not(feature = "usdc"))]
         _ => {}
     }
     Ok(warnings)
+}
+
+/// Writes a groom and the skeleton that moves it.
+pub(crate) fn write_rigged(
+    motion: RigMotion<'_>,
+    format: Format,
+    stream: &mut (impl Write + Seek),
+    file: &str,
+    options: &WriteOptions,
+) -> Result<Vec<Warning>, FormatError> {
+    let job = Job { format, file, options };
+    let mut warnings = Vec::new();
+    let curves = job.curves(motion.groom, &mut warnings)?;
+    if motion.groom.attribute(names::VELOCITY).is_some() {
+        // Joints move the points, not what stands beside them.
+        warnings.push(Warning::AttributeLeftOut { format, name: names::VELOCITY.to_owned() });
+    }
+    let skeleton = skeleton::Skeleton::of(motion, &curves, format, file, &mut warnings)?;
+    let moves = Moves::Joints(&skeleton);
+    match format {
+        #[cfg(feature = "usda")]
+        Format::Usda => {
+            let mut sink = text_sink::TextSink::new(stream, &curves);
+            job.fill(&mut sink, &curves, moves, &mut warnings)?;
+            sink.finish().map_err(|e| FormatError::io(file, e))?;
+        }
+        #[cfg(feature = "usdc")]
+        _ => job.fill_crate(stream, &curves, moves, &mut warnings)?,
+        #[cfg(not(feature = "usdc"))]
+        _ => {}
+    }
+    Ok(warnings)
+}
+
+/// What moves the curves.
+enum Moves<'a> {
+    Nothing,
+    Points(Motion<'a>),
+    Joints(&'a skeleton::Skeleton),
 }
 
 /// What is to be written, and how.
@@ -145,10 +188,15 @@ impl Job<'_> {
         self,
         sink: &mut S,
         curves: &Curves<'_>,
-        motion: Option<Motion<'_>>,
+        moves: Moves<'_>,
         warnings: &mut Vec<Warning>,
     ) -> Result<(), FormatError> {
         let Job { format, file, options } = self;
+        let (motion, skeleton) = match moves {
+            Moves::Nothing => (None, None),
+            Moves::Points(motion) => (Some(motion), None),
+            Moves::Joints(skeleton) => (None, Some(skeleton)),
+        };
         let origin = motion.as_ref().map_or(DVec3::ZERO, |motion| motion.options.origin);
         let samples = motion.map(|motion| motion::store(sink, curves, motion, format, file)).transpose()?;
         let still_velocity = curves.groom.attribute(names::VELOCITY).is_some();
@@ -159,7 +207,7 @@ impl Job<'_> {
         }
         let primvars = primvars::all(curves, options.dialect, format, warnings);
         let look = options.look.as_ref();
-        let stage = Stage { curves, primvars: &primvars, dialect: options.dialect, look, origin };
+        let stage = Stage { curves, primvars: &primvars, dialect: options.dialect, look, origin, skeleton };
         stage.write(sink, samples.as_ref()).map_err(|e| failed(e, format, file))
     }
 
@@ -168,19 +216,19 @@ impl Job<'_> {
         self,
         stream: &mut (impl Write + Seek),
         curves: &Curves<'_>,
-        motion: Option<Motion<'_>>,
+        moves: Moves<'_>,
         warnings: &mut Vec<Warning>,
     ) -> Result<(), FormatError> {
         let failed = |e: WriteError| failed(e, self.format, self.file);
         if self.format == Format::Usdz {
             let mut package = PackageWriter::new(stream, IN_PACKAGE).map_err(failed)?;
             let mut sink = crate_sink::CrateSink::new(package.layer());
-            self.fill(&mut sink, curves, motion, warnings)?;
+            self.fill(&mut sink, curves, moves, warnings)?;
             package.finish().map_err(failed)?;
         } else {
             let mut layer = CrateWriter::new(stream).map_err(failed)?;
             let mut sink = crate_sink::CrateSink::new(&mut layer);
-            self.fill(&mut sink, curves, motion, warnings)?;
+            self.fill(&mut sink, curves, moves, warnings)?;
             layer.finish().map_err(failed)?;
         }
         Ok(())

@@ -145,7 +145,7 @@ fn type_name(values: &Values) -> &'static str {
 }
 
 /// `name` as a USD identifier that is not used yet: letters, digits and `_`, no digit first.
-fn identifier(name: &str, used: &mut BTreeSet<String>) -> String {
+pub(super) fn identifier(name: &str, used: &mut BTreeSet<String>) -> String {
     let mut plain: String = name.chars().map(|c| if c.is_ascii_alphanumeric() { c } else { '_' }).collect();
     if !plain.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_') {
         plain.insert(0, '_');

@@ -8,6 +8,7 @@ use crate::usd::write::array::{Array, Rows, Shape};
 use crate::usd::write::curves::Curves;
 use crate::usd::write::primvars::{Primvar, widths};
 use crate::usd::write::sink::{Content, Declaration, Head, Single, Sink};
+use crate::usd::write::skeleton::Skeleton;
 use crate::usd::write::{extent, material};
 use crate::{Dialect, Look};
 
@@ -22,6 +23,8 @@ pub(super) struct Stage<'a> {
     pub look: Option<&'a Look>,
     /// Where the points are measured from.
     pub origin: DVec3,
+    /// The joints that move the points.
+    pub skeleton: Option<&'a Skeleton>,
 }
 
 /// What changes over time, put aside with the sink.
@@ -47,14 +50,26 @@ impl Stage<'_> {
         self.layer(sink, samples)?;
         let is_unreal = self.dialect == Some(Dialect::Unreal);
         let apis: &[&str] = if is_unreal { &["GroomAPI"] } else { &[] };
-        sink.begin(&Head { name: "Groom", type_name: "Xform", apis, is_component: true })?;
-        let apis: &[&str] = if self.look.is_some() { &["MaterialBindingAPI"] } else { &[] };
-        sink.begin(&Head { name: "Strands", type_name: "BasisCurves", apis, is_component: false })?;
+        let type_name = if self.skeleton.is_some() { "SkelRoot" } else { "Xform" };
+        sink.begin(&Head { name: "Groom", type_name, apis, is_component: true })?;
+        if let Some(skeleton) = self.skeleton {
+            skeleton.root(sink, 0.5 * extent::largest(&widths(self.curves)))?;
+        }
+        let mut apis = Vec::new();
+        apis.extend(self.look.map(|_| "MaterialBindingAPI"));
+        apis.extend(self.skeleton.map(|_| "SkelBindingAPI"));
+        sink.begin(&Head { name: "Strands", type_name: "BasisCurves", apis: &apis, is_component: false })?;
         self.strands(sink, samples)?;
+        if let Some(skeleton) = self.skeleton {
+            skeleton.binding(sink, self.curves)?;
+        }
         if self.look.is_some() {
             sink.relationship("material:binding", material::PATH)?;
         }
         sink.end()?;
+        if let Some(skeleton) = self.skeleton {
+            skeleton.write(sink)?;
+        }
         if let Some(look) = self.look {
             material::write(sink, look, self.curves.groom.colors().is_some())?;
         }
@@ -63,20 +78,22 @@ impl Stage<'_> {
 
     fn layer<S: Sink>(&self, sink: &mut S, samples: Option<&Samples<S::Stored>>) -> Result<(), WriteError> {
         let groom = self.curves.groom;
-        let rate = samples.map_or(STILL_RATE, |samples| samples.frame_rate);
+        let moving = samples.map(|samples| (samples.frame_rate, samples.range));
+        let moving = moving.or(self.skeleton.map(|skeleton| (skeleton.frame_rate, skeleton.range())));
+        let rate = moving.map_or(STILL_RATE, |(rate, _)| rate);
         let up = match groom.up_axis {
             UpAxis::Y => "Y",
             UpAxis::Z => "Z",
         };
         let doc = concat!("Written by groomkit ", env!("CARGO_PKG_VERSION"));
         let mut metadata = vec![("defaultPrim", Single::Token("Groom")), ("doc", Single::Text(doc))];
-        if let Some(samples) = samples {
-            metadata.push(("endTimeCode", Single::Double(samples.range.1)));
+        if let Some((_, (_, end))) = moving {
+            metadata.push(("endTimeCode", Single::Double(end)));
             metadata.push(("framesPerSecond", Single::Double(rate)));
         }
         metadata.push(("metersPerUnit", Single::Double(groom.meters_per_unit)));
-        if let Some(samples) = samples {
-            metadata.push(("startTimeCode", Single::Double(samples.range.0)));
+        if let Some((_, (start, _))) = moving {
+            metadata.push(("startTimeCode", Single::Double(start)));
         }
         metadata.push(("timeCodesPerSecond", Single::Double(rate)));
         metadata.push(("upAxis", Single::Token(up)));
@@ -84,7 +101,7 @@ impl Stage<'_> {
     }
 
     fn strands<S: Sink>(&self, sink: &mut S, samples: Option<&Samples<S::Stored>>) -> Result<(), WriteError> {
-        self.place(sink)?;
+        place(sink, self.origin)?;
         let curves = self.curves;
         let token = |word| Content::Single(Single::Token(word));
         let kind = if curves.phantoms { "cubic" } else { "linear" };
@@ -115,17 +132,6 @@ impl Stage<'_> {
         Ok(())
     }
 
-    /// Puts the prim where its points are measured from.
-    fn place<S: Sink>(&self, sink: &mut S) -> Result<(), WriteError> {
-        if self.origin == DVec3::ZERO {
-            return Ok(());
-        }
-        let translation = Content::Single(Single::Double3(self.origin.to_array()));
-        sink.attribute(Declaration::new("double3", "xformOp:translate"), translation)?;
-        let order = Content::Single(Single::Tokens(&["xformOp:translate"]));
-        sink.attribute(Declaration::uniform("token[]", "xformOpOrder"), order)
-    }
-
     /// Velocities and accelerations: those of the frames, or the still groom's own velocities.
     fn derivatives<S: Sink>(
         &self,
@@ -133,7 +139,8 @@ impl Stage<'_> {
         samples: Option<&Samples<S::Stored>>,
     ) -> Result<(), WriteError> {
         let Some(samples) = samples else {
-            let Some(velocities) = velocities(self.curves) else { return Ok(()) };
+            let still = velocities(self.curves).filter(|_| self.skeleton.is_none());
+            let Some(velocities) = still else { return Ok(()) };
             return sink.attribute(Declaration::new("vector3f[]", "velocities"), Content::Array(&velocities));
         };
         for (name, values) in [("velocities", &samples.velocities), ("accelerations", &samples.accelerations)]
@@ -144,6 +151,17 @@ impl Stage<'_> {
         }
         Ok(())
     }
+}
+
+/// Puts the prim that is open at a place.
+pub(super) fn place<S: Sink>(sink: &mut S, origin: DVec3) -> Result<(), WriteError> {
+    if origin == DVec3::ZERO {
+        return Ok(());
+    }
+    let translation = Content::Single(Single::Double3(origin.to_array()));
+    sink.attribute(Declaration::new("double3", "xformOp:translate"), translation)?;
+    let order = Content::Single(Single::Tokens(&["xformOp:translate"]));
+    sink.attribute(Declaration::uniform("token[]", "xformOpOrder"), order)
 }
 
 fn still_or<'a, S>(still: &'a Array<'a>, samples: Option<&'a [(f64, S)]>) -> Content<'a, S> {
