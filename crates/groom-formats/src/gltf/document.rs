@@ -13,11 +13,11 @@ use gltf::json::validation::USize64;
 use gltf::json::{Accessor, Buffer, Index, Material, Mesh, Node, Root, Scene, serialize};
 use gltf::mesh::Semantic;
 
+use super::Plan;
 use super::moving::Moving;
 use super::nodes;
-use super::tail::Stored;
-use super::Plan;
 use super::surface::Surface;
+use super::tail::Stored;
 use super::views::{self, Field};
 
 pub(super) fn json(plan: &Plan<'_>, bytes_name: Option<&[u8]>) -> io::Result<Vec<u8>> {
@@ -123,12 +123,7 @@ impl Builder {
     }
 
     /// Puts the primitive into a mesh, a node and the scene, with what moves it.
-    fn place(
-        &mut self,
-        plan: &Plan<'_>,
-        primitive: Primitive,
-        tail: &[Index<Accessor>],
-    ) -> io::Result<()> {
+    fn place(&mut self, plan: &Plan<'_>, primitive: Primitive, tail: &[Index<Accessor>]) -> io::Result<()> {
         let extras = match &plan.marks {
             Some(marks) => Some(RawValue::from_string(marks.to_string()).map_err(io::Error::other)?),
             None => None,

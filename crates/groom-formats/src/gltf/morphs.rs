@@ -47,7 +47,13 @@ pub(crate) fn write_animation(
         check.take(&frame)?;
         if targets.len() >= MOST {
             let (file, what) = (file.to_owned(), "frames, as morph targets,");
-            return Err(FormatError::TooLarge { file, format, what, found: MOST as u64 + 2, limit: MOST as u64 + 1 });
+            return Err(FormatError::TooLarge {
+                file,
+                format,
+                what,
+                found: MOST as u64 + 2,
+                limit: MOST as u64 + 1,
+            });
         }
         displacements(&plan, &frame, &mut moves);
         if let Some(point) = moves.iter().position(|by| by.iter().any(|v| !v.is_finite())) {

@@ -35,7 +35,8 @@ pub(super) fn seconds(times: &[f64], frame_rate: f64, file: &str) -> Result<Vec<
             return Err(FormatError::invalid(file, place(), format!("{time} ({seconds} s)"), expected));
         }
         if let Some(last) = all.last().filter(|last| seconds <= **last) {
-            let expected = format!("more than {last} s, that of the frame before, in the 32 bits that glTF has");
+            let expected =
+                format!("more than {last} s, that of the frame before, in the 32 bits that glTF has");
             return Err(FormatError::invalid(file, place(), format!("{time} ({seconds} s)"), expected));
         }
         all.push(seconds);

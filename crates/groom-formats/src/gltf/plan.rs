@@ -8,8 +8,8 @@ use groom::{FloatView, Groom, names};
 
 use super::colors::Colors;
 use super::grid::Grid;
-use super::runs::runs;
 use super::moving::Moving;
+use super::runs::runs;
 use super::space::Space;
 use super::surface::{self, Surface};
 use super::tail::Tail;
@@ -96,7 +96,12 @@ impl<'a> Plan<'a> {
     }
 
     /// Adds what moves the mesh; its arrays are in the tail.
-    pub(super) fn follow(&mut self, moving: Moving<'a>, format: Format, file: &str) -> Result<(), FormatError> {
+    pub(super) fn follow(
+        &mut self,
+        moving: Moving<'a>,
+        format: Format,
+        file: &str,
+    ) -> Result<(), FormatError> {
         if let Moving::Skin(skin) = &moving {
             let vertices = self.drawable.points * self.surface.as_ref().map_or(1, Surface::per_point);
             self.views.extend(views::of_skin(skin, vertices));

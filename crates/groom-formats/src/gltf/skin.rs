@@ -100,7 +100,11 @@ fn keys(track: &Track, plan: &mut Plan<'_>) -> JointKeys {
 }
 
 /// The first value, and the array of all where they differ.
-fn changing<const N: usize>(values: &[[f32; N]], kind: Type, plan: &mut Plan<'_>) -> ([f32; N], Option<usize>) {
+fn changing<const N: usize>(
+    values: &[[f32; N]],
+    kind: Type,
+    plan: &mut Plan<'_>,
+) -> ([f32; N], Option<usize>) {
     let first = values.first().copied().unwrap_or([0.0; N]);
     let changes = values.iter().any(|value| *value != first);
     (first, changes.then(|| plan.tail.push(kind, values.as_flattened().to_vec())))

@@ -37,7 +37,14 @@ impl Tail {
     pub(super) fn push(&mut self, kind: Type, values: Vec<f32>) -> usize {
         let bytes = 4 * values.len() as u64;
         let count = values.len() / kind.multiplicity();
-        self.add(Stored { source: Source::Memory(values), bytes, count, kind, bounds: None, is_vertex: false })
+        self.add(Stored {
+            source: Source::Memory(values),
+            bytes,
+            count,
+            kind,
+            bounds: None,
+            is_vertex: false,
+        })
     }
 
     /// Adds the times of keys, with their bounds.

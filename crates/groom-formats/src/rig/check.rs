@@ -1,11 +1,13 @@
 //! Refuses rigs and frames that make no motion.
 
-use glam::DMat4;
+use glam::{DMat4, DVec4};
 use groom::Groom;
 
 use super::{Rig, RigFrame};
 use crate::FormatError;
 
+/// What inverting a matrix may leave in its last row.
+const ROUNDING: f64 = 1e-9;
 /// How far weights may be from a sum of 1.
 const SUM: f64 = 1e-3;
 
@@ -84,7 +86,11 @@ impl<'a> RigCheck<'a> {
             return fault("time", frame.time.to_string(), expected);
         }
         if frame.joints.len() != self.joints {
-            return fault("joints", frame.joints.len().to_string(), format!("{}, as in the rig", self.joints));
+            return fault(
+                "joints",
+                frame.joints.len().to_string(),
+                format!("{}, as in the rig", self.joints),
+            );
         }
         for (joint, matrix) in frame.joints.iter().enumerate() {
             if let Err((found, expected)) = affine(matrix) {
@@ -109,7 +115,7 @@ fn affine(matrix: &DMat4) -> Result<(), (String, &'static str)> {
         return Err(("a number that is not finite".into(), "finite numbers"));
     }
     let last = matrix.row(3);
-    if last.to_array() != [0.0, 0.0, 0.0, 1.0] {
+    if !last.abs_diff_eq(DVec4::W, ROUNDING) {
         return Err((format!("a last row of {last}"), "0 0 0 1: a matrix that keeps parallels"));
     }
     Ok(())

@@ -47,9 +47,15 @@ fn nearest_orthogonal(linear: DMat3, last: DQuat) -> DMat3 {
     let units = [linear.x_axis, linear.y_axis, linear.z_axis].map(DVec3::try_normalize);
     let mut near = match units {
         [Some(x), Some(y), Some(z)] => DMat3::from_cols(x, y, z),
-        [None, Some(y), Some(z)] => DMat3::from_cols(y.cross(z).normalize_or(y.any_orthonormal_vector()), y, z),
-        [Some(x), None, Some(z)] => DMat3::from_cols(x, z.cross(x).normalize_or(x.any_orthonormal_vector()), z),
-        [Some(x), Some(y), None] => DMat3::from_cols(x, y, x.cross(y).normalize_or(x.any_orthonormal_vector())),
+        [None, Some(y), Some(z)] => {
+            DMat3::from_cols(y.cross(z).normalize_or(y.any_orthonormal_vector()), y, z)
+        }
+        [Some(x), None, Some(z)] => {
+            DMat3::from_cols(x, z.cross(x).normalize_or(x.any_orthonormal_vector()), z)
+        }
+        [Some(x), Some(y), None] => {
+            DMat3::from_cols(x, y, x.cross(y).normalize_or(x.any_orthonormal_vector()))
+        }
         [Some(x), None, None] => {
             let (y, z) = x.any_orthonormal_pair();
             DMat3::from_cols(x, y, z)

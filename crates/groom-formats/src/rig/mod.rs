@@ -14,7 +14,9 @@ pub(crate) use check::RigCheck;
 pub(crate) use tracks::{Space, Track, Tracks};
 
 use crate::read::endings;
-use crate::{Format, FormatError, MotionOptions, Output, Warning, WriteOptions, check as groom_check, frame_check};
+use crate::{
+    Format, FormatError, MotionOptions, Output, Warning, WriteOptions, check as groom_check, frame_check,
+};
 
 /// Bytes gathered before the system is asked to write them.
 const BUFFER: usize = 1 << 20;

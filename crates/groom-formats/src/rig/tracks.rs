@@ -23,17 +23,20 @@ pub(crate) struct Space {
 impl Space {
     /// A joint's world matrix in the file: C (W - origin) C^-1.
     fn world(&self, world: &DMat4) -> DMat4 {
-        self.change * (DMat4::from_translation(-self.origin) * *world) * self.change.inverse()
+        affine(self.change * (DMat4::from_translation(-self.origin) * *world) * self.change.inverse())
     }
 
     /// The inverse bind matrix in the file: C (I + origin) C^-1.
     pub(crate) fn inverse_bind(&self, inverse_bind: &DMat4) -> DMat4 {
         let moved = *inverse_bind * DMat4::from_translation(self.origin);
-        let mut matrix = self.change * moved * self.change.inverse();
-        // What rounding left there must be 0 0 0 1.
-        (matrix.x_axis.w, matrix.y_axis.w, matrix.z_axis.w, matrix.w_axis.w) = (0.0, 0.0, 0.0, 1.0);
-        matrix
+        affine(self.change * moved * self.change.inverse())
     }
+}
+
+/// The matrix with a last row of 0 0 0 1, which rounding leaves near that.
+fn affine(mut matrix: DMat4) -> DMat4 {
+    (matrix.x_axis.w, matrix.y_axis.w, matrix.z_axis.w, matrix.w_axis.w) = (0.0, 0.0, 0.0, 1.0);
+    matrix
 }
 
 /// One joint over time.
@@ -97,7 +100,8 @@ impl Tracks {
                 worlds[index] = parent * local.matrix();
                 for corner in corners(&boxes[index]) {
                     let bound = inverse_binds[index].transform_point3(corner);
-                    let (meant, written) = (world.transform_point3(bound), worlds[index].transform_point3(bound));
+                    let (meant, written) =
+                        (world.transform_point3(bound), worlds[index].transform_point3(bound));
                     worst.note(meant.distance(written), index, frame.time);
                     extent = [extent[0].min(written), extent[1].max(written)];
                 }
@@ -110,9 +114,10 @@ impl Tracks {
             tracks.times.push(frame.time);
         }
         check.finish()?;
-        let whole = boxes.iter().flatten().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |all, [low, high]| {
-            [all[0].min(*low), all[1].max(*high)]
-        });
+        let whole =
+            boxes.iter().flatten().fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |all, [low, high]| {
+                [all[0].min(*low), all[1].max(*high)]
+            });
         warnings.extend(worst.told(rig, format, whole[0].distance(whole[1])));
         Ok(tracks)
     }

@@ -16,6 +16,7 @@ mod motion;
 mod obj;
 mod pbrt;
 mod ply;
+mod rigged;
 mod stream;
 mod text;
 mod tfx;

@@ -82,9 +82,11 @@ impl Skeleton {
     /// nothing and does not say so.
     pub fn binding<S: Sink>(&self, sink: &mut S, curves: &Curves<'_>) -> Result<(), WriteError> {
         let each = self.influences.iter().map(|influences| influences.iter().count()).max().unwrap_or(1);
-        let points = || self.influences.iter().zip(&curves.counts).flat_map(|(influences, &count)| {
-            std::iter::repeat_n(influences, usize::try_from(count).unwrap_or_default())
-        });
+        let points = || {
+            self.influences.iter().zip(&curves.counts).flat_map(|(influences, &count)| {
+                std::iter::repeat_n(influences, usize::try_from(count).unwrap_or_default())
+            })
+        };
         let per_point = |name, type_name| Declaration {
             interpolation: Some("vertex"),
             element_size: Some(each as i32),
