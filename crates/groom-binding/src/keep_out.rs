@@ -180,3 +180,58 @@ fn count_inside(groom: &Groom, skin: &Skin<'_>, places: &[DVec3], near: f64) -> 
     let sum = |a: (usize, f64), b: (usize, f64)| (a.0 + b.0, a.1.max(b.1));
     (0..groom.strand_count()).into_par_iter().with_min_len(256).map(strand).reduce(|| (0, 0.0), sum)
 }
+
+#[cfg(test)]
+mod tests {
+    use glam::dvec3;
+    use groom::random;
+
+    use super::*;
+
+    /// Inside or outside of a body that no pseudo-normal but the right one tells: four thin and blunt corners, of which
+    /// each place is on a known side of four planes. Every triangle has vertices of its own, as files without an index
+    /// have them.
+    #[test]
+    fn the_side_is_right_by_sharp_corners_and_edges() {
+        let corners =
+            [dvec3(0.0, 0.0, 0.0), dvec3(10.0, 0.1, 0.0), dvec3(9.0, 0.0, 1.0), dvec3(0.4, 3.0, 0.2)];
+        let faces = [[0, 1, 2], [0, 3, 1], [1, 3, 2], [2, 3, 0]];
+        let outward = |face: [usize; 3]| {
+            let [a, b, c] = face.map(|v| corners[v]);
+            (a, (b - a).cross(c - a).normalize())
+        };
+        let middle = corners.iter().sum::<DVec3>() / 4.0;
+        assert!(faces.iter().all(|&face| {
+            let (a, normal) = outward(face);
+            (middle - a).dot(normal) < 0.0
+        }));
+        let positions: Vec<DVec3> = faces.as_flattened().iter().map(|&v| corners[v]).collect();
+        let rest = Pose { positions, normals: None };
+        let triangles: Vec<[u32; 3]> = (0..4).map(|i| [3 * i, 3 * i + 1, 3 * i + 2]).collect();
+        let keep_out = KeepOut::new(Surface { triangles: &triangles, rest: &rest, uvs: None }, 0.1);
+        let skin = keep_out.skin(&rest);
+        let (mut inside, mut by_corner) = (0, 0);
+        for i in 0..20_000 {
+            let one = |purpose| f64::from(random(1, i, purpose)) * 2.0 - 1.0;
+            // Close to a corner, most of them.
+            let near = corners[(i % 4) as usize];
+            let place = near + dvec3(one("x"), one("y"), one("z")) * [0.2, 1.0, 5.0][(i % 3) as usize];
+            let depth = faces.iter().map(|&face| {
+                let (a, normal) = outward(face);
+                (place - a).dot(normal)
+            });
+            let depth = depth.fold(f64::NEG_INFINITY, f64::max);
+            let seen = skin.see(place, &mut Search::default()).unwrap();
+            assert_eq!(seen.distance < 0.0, depth < 0.0, "{place}: {}, {depth}", seen.distance);
+            inside += usize::from(depth < 0.0);
+            by_corner += usize::from((seen.distance - place.distance(near)).abs() < 1e-12);
+            if depth < 0.0 {
+                assert!((seen.distance - depth).abs() < 1e-12);
+            }
+            // The distance grows the way that is told.
+            let farther = skin.see(place + seen.out * 1e-3, &mut Search::default()).unwrap();
+            assert!(farther.distance > seen.distance + 0.99e-3);
+        }
+        assert!(inside > 100 && by_corner > 2000, "{inside} {by_corner}");
+    }
+}

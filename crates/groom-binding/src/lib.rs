@@ -4,6 +4,7 @@
 //! of the pose the strand was made for. At another pose the same place gives another frame, and the strand goes
 //! with it. Knows meshes by their triangles and poses, not by their files, and no light.
 
+mod accuracy;
 mod anchors;
 mod bind_options;
 mod bind_report;
@@ -35,6 +36,7 @@ mod surface_tree;
 mod topology;
 mod vertex_normals;
 
+pub use accuracy::{AccuracyRow, blending_accuracy, velocity_accuracy};
 pub use bind_options::{Beyond, BindBy, BindOptions};
 pub use bind_report::BindReport;
 pub use binding::Binding;

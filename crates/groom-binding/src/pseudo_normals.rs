@@ -10,9 +10,11 @@ use std::collections::HashMap;
 use glam::DVec3;
 
 use crate::Surface;
-use crate::vertex_normals::{VertexNormals, unit};
+use crate::vertex_normals::unit;
 
-/// Edges and vertices of a mesh, with repeated vertices taken as one.
+/// Edges and vertices of a mesh. Vertices at one place at rest are one, however sharp the corner is that they make: the
+/// sums are over all that meets there. (The two sides of a leaf without thickness, which meet everywhere, have no inside
+/// by this rule or any other.)
 #[derive(Clone, Debug)]
 pub(crate) struct Features {
     /// For every triangle the vertices that its own stand for.
@@ -25,12 +27,13 @@ pub(crate) struct Features {
 
 impl Features {
     pub(crate) fn of(surface: &Surface<'_>) -> Self {
-        let normals = VertexNormals::of(surface);
-        let corners: Vec<[u32; 3]> = surface
-            .triangles
-            .iter()
-            .map(|triangle| triangle.map(|vertex| normals.stands_for(vertex)))
-            .collect();
+        let mut first_at = HashMap::with_capacity(surface.rest.positions.len());
+        // Adding nothing makes the two zeros one.
+        let key = |place: &DVec3| place.to_array().map(|x| (x + 0.0).to_bits());
+        let same: Vec<u32> =
+            (0..).zip(&surface.rest.positions).map(|(i, p)| *first_at.entry(key(p)).or_insert(i)).collect();
+        let corners: Vec<[u32; 3]> =
+            surface.triangles.iter().map(|triangle| triangle.map(|vertex| same[vertex as usize])).collect();
         let mut numbers = HashMap::with_capacity(corners.len() * 3 / 2);
         let mut number = |a: u32, b: u32| {
             let next = numbers.len() as u32;

@@ -44,11 +44,6 @@ impl VertexNormals {
         VertexNormals { shared }
     }
 
-    /// The vertex whose normal `vertex` has: for repeated ones the first of them, for most itself.
-    pub(crate) fn stands_for(&self, vertex: u32) -> u32 {
-        self.shared[vertex as usize]
-    }
-
     /// The unit normals at `positions`, to be read by [`VertexNormals::at`]; zero where the triangles round a
     /// vertex have no area or face away from each other evenly.
     pub(crate) fn at_pose(&self, triangles: &[[u32; 3]], positions: &[DVec3]) -> PoseNormals<'_> {

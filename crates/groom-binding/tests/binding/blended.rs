@@ -4,6 +4,7 @@ use glam::{DMat3, DQuat, DVec3, Vec3, dvec3};
 use groom::Groom;
 use groom_binding::{
     BindOptions, Binding, Blend, Carrier, CarryMode, CarryOptions, CarryReport, Moved, RootFrames, Stencil,
+    blending_accuracy,
 };
 use moving_mesh::Pose;
 
@@ -178,4 +179,18 @@ fn options_out_of_range_are_refused() {
     ] {
         assert!(Carrier::new(&groom, &binding, mesh.surface(), bad).is_err(), "{bad:?}");
     }
+}
+
+#[test]
+fn more_anchors_are_nearer_to_all_vertices() {
+    let (mesh, groom) = (egg(12, 16), strands(100, 0.2, 8));
+    let binding = bound(&groom, &mesh);
+    let bent = |p: DVec3| DQuat::from_rotation_z(0.8 * p.y) * (p * (1.0 + 0.2 * p.x));
+    let rows =
+        blending_accuracy(&groom, &binding, mesh.surface(), &[mesh.posed(bent)], &[4, 16, 64, 2000], 2000)
+            .unwrap();
+    for pair in rows.windows(2) {
+        assert!(pair[1].error < 0.6 * pair[0].error && pair[1].worst < pair[0].worst, "{rows:?}");
+    }
+    assert!(rows[3].error == 0.0 && rows[2].error < 2e-3, "{rows:?}");
 }

@@ -4,7 +4,7 @@ use glam::{DQuat, DVec3, Vec3};
 use groom::Groom;
 use groom_binding::{
     BindOptions, Binding, BindingError, Blend, Carrier, CarryMode, CarryOptions, CarryReport, Moved,
-    RootFrames, Stencil,
+    RootFrames, Stencil, velocity_accuracy,
 };
 use moving_mesh::Pose;
 
@@ -213,4 +213,19 @@ fn buffers_may_hold_anything() {
     let short = Pose { positions: vec![DVec3::ZERO; 3], normals: None };
     assert!(carrier.moved(&stencil, [&a, &short, &c], true, &mut moved).is_err());
     assert_eq!(moved, clean);
+}
+
+#[test]
+fn half_the_step_is_a_quarter_of_the_error() {
+    let mesh = egg(12, 16);
+    let groom = strands(60, 0.1, 9);
+    let binding = bound(&groom, &mesh);
+    let steps = [0.04, 0.02, 0.01];
+    let pose = |t: f64| Ok::<_, BindingError>(mesh.posed(|p| morphing(p, t)));
+    let rows = velocity_accuracy(&groom, &binding, mesh.surface(), 1.3, None, &steps, pose).unwrap();
+    for (pair, step) in rows.windows(2).zip(steps) {
+        assert_eq!(pair[0].value, step);
+        let ratio = pair[0].error / pair[1].error;
+        assert!((3.6..4.4).contains(&ratio), "{rows:?}");
+    }
 }
