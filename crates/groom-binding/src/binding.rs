@@ -79,12 +79,17 @@ impl Binding {
     /// # Errors
     /// [`BindingError::Invalid`]: the groom has another number of strands, or the mesh other triangles.
     pub fn check(&self, groom: &Groom, surface: &Surface<'_>) -> Result<(), BindingError> {
-        let (found, expected) = (groom.strand_count(), self.strand_count());
-        if found != expected {
-            let expected = format!("as many as are bound: {expected}");
-            return Err(BindingError::invalid("groom", format!("{found} strands"), expected));
-        }
+        self.check_groom(groom)?;
         self.check_surface(surface)
+    }
+
+    pub(crate) fn check_groom(&self, groom: &Groom) -> Result<(), BindingError> {
+        let (found, expected) = (groom.strand_count(), self.strand_count());
+        if found == expected {
+            return Ok(());
+        }
+        let expected = format!("as many as are bound: {expected}");
+        Err(BindingError::invalid("groom", format!("{found} strands"), expected))
     }
 
     pub(crate) fn check_surface(&self, surface: &Surface<'_>) -> Result<(), BindingError> {

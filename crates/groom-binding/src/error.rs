@@ -23,6 +23,12 @@ pub enum BindingError {
         /// What would be right.
         expected: String,
     },
+    /// What is needed of the mesh's file cannot be had: a picture, say.
+    #[error(transparent)]
+    Mesh(#[from] moving_mesh::MeshError),
+    /// The groom does not take an attribute.
+    #[error(transparent)]
+    Groom(#[from] groom::GroomError),
 }
 
 impl BindingError {

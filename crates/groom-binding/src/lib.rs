@@ -46,7 +46,10 @@ pub use error::BindingError;
 pub use moved::{CarryReport, Moved};
 pub use rigid_carry::carry_rigid;
 pub use root::Root;
-pub use root_attributes::ROOT_TRIANGLE;
+pub use root_attributes::{
+    GroupBy, ROOT_NORMAL, ROOT_TRIANGLE, set_groups, set_root_colors, set_root_normals, set_root_triangles,
+    set_root_uvs,
+};
 pub use root_frame::{RigidMotion, RootFrame};
 pub use root_frames::RootFrames;
 pub use shutter::Shutter;

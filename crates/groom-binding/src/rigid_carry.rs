@@ -25,11 +25,7 @@ pub fn carry_rigid(
     origin: DVec3,
     out: &mut Vec<Vec3>,
 ) -> Result<(), BindingError> {
-    let (found, bound) = (groom.strand_count(), frames.frames().len());
-    if found != bound {
-        let expected = format!("as many as are bound: {bound}");
-        return Err(BindingError::invalid("groom", format!("{found} strands"), expected));
-    }
+    frames.binding().check_groom(groom)?;
     out.resize(groom.point_count(), Vec3::ZERO);
     let blocks = blocks(groom, out);
     blocks.into_par_iter().for_each(|(strands, mut out)| {

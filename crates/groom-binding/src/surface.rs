@@ -1,7 +1,7 @@
 //! What strands are bound to.
 
 use glam::{DVec3, Vec2};
-use moving_mesh::Pose;
+use moving_mesh::{MovingMesh, Pose};
 
 use crate::BindingError;
 
@@ -17,6 +17,14 @@ pub struct Surface<'a> {
     pub rest: &'a Pose,
     /// Texture coordinates, one a vertex, V upwards.
     pub uvs: Option<&'a [Vec2]>,
+}
+
+impl<'a> Surface<'a> {
+    /// The triangles of a mesh, and the pose that it calls its rest.
+    #[must_use]
+    pub fn of(mesh: &'a MovingMesh) -> Self {
+        Surface { triangles: mesh.triangles(), rest: mesh.rest(), uvs: mesh.uvs() }
+    }
 }
 
 impl Surface<'_> {
