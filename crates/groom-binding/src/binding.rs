@@ -1,10 +1,11 @@
 //! Every strand's place on a surface.
 
+use glam::{DQuat, DVec3};
 use groom::Groom;
 use rayon::prelude::*;
 
 use crate::root::place;
-use crate::root_frame::turn_at;
+use crate::root_frame::rest_turn;
 use crate::root_places::{self, Found, Place, root};
 use crate::vertex_normals::{PoseNormals, VertexNormals};
 use crate::{Beyond, BindOptions, BindReport, BindingError, Root, RootFrame, Surface, TopologyHash};
@@ -51,7 +52,7 @@ impl Binding {
         report.outside = listed(Found::Nearby);
         let mut roots: Vec<Root> = bound.into_iter().map(|(root, _)| root).collect();
         apply_limit(groom, &mut roots, &mut report, options.beyond);
-        report.without_frame = roots.iter().filter(|root| root.faced_out.is_none()).count();
+        report.without_frame = roots.iter().filter(|root| root.facing.is_none()).count();
         let topology = TopologyHash::of(surface.rest.positions.len(), surface.triangles);
         Ok((Binding { roots, topology }, report))
     }
@@ -122,14 +123,16 @@ fn bind(
 ) -> (Root, f64) {
     let corners = surface.corners(&surface.rest.positions, triangle);
     let at_corners = surface.triangles[triangle as usize].map(|vertex| normals.at(vertex));
-    let turn = turn_at(corners, at_corners, barycentrics, false);
-    let rotation = turn.map(|turn| turn.rotation).unwrap_or_default();
+    let (rotation, facing) = match rest_turn(corners, at_corners, barycentrics) {
+        Some((rotation, facing)) => (rotation, Some(facing)),
+        None => (DQuat::IDENTITY, None),
+    };
     let origin = place(corners, barycentrics);
     let offset = root(groom, strand) - origin;
     let distance = offset.length();
-    let height = if offset.dot(rotation * glam::DVec3::Y) < 0.0 { -distance } else { distance };
+    let height = if offset.dot(rotation * DVec3::Y) < 0.0 { -distance } else { distance };
     let rest = RootFrame { origin, rotation };
-    (Root { triangle, barycentrics, height, rest, faced_out: turn.map(|turn| turn.faces_out) }, distance)
+    (Root { triangle, barycentrics, height, rest, facing }, distance)
 }
 
 /// Does what is to be done with the strands beyond the limit.

@@ -3,6 +3,7 @@
 use glam::DVec3;
 
 use crate::RootFrame;
+use crate::root_frame::Facing;
 
 /// Where one strand is bound, and how the surface was there when it was.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,9 +22,8 @@ pub struct Root {
     /// The frame of the surface at the place, at rest. What is carried goes with the motion from this frame to
     /// that of a pose. The origin of a snapped strand's is its root, so that the root lands on the surface.
     pub rest: RootFrame,
-    /// Whether the triangle faced as its vertices' normals do at rest; `None`: it had no frame, and `rest` is
-    /// turned anyhow.
-    pub(crate) faced_out: Option<bool>,
+    /// What tells the triangle's turn at other poses; `None`: it had no frame, and `rest` is turned anyhow.
+    pub(crate) facing: Option<Facing>,
 }
 
 /// The point of a triangle that has these weights.

@@ -37,7 +37,7 @@ pub fn set_root_uvs(groom: &mut Groom, binding: &Binding, surface: &Surface<'_>)
 /// # Errors
 /// [`BindingError::Invalid`]: the binding is of a groom with another number of strands.
 pub fn set_root_normals(groom: &mut Groom, binding: &Binding) -> Result<(), BindingError> {
-    let normals = binding.roots().iter().map(|root| match root.faced_out {
+    let normals = binding.roots().iter().map(|root| match root.facing {
         Some(_) => (root.rest.rotation * DVec3::Y).as_vec3(),
         None => Vec3::ZERO,
     });

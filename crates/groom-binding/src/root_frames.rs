@@ -6,17 +6,18 @@ use rayon::prelude::*;
 
 use crate::handedness::Handedness;
 use crate::root::place;
-use crate::root_frame::turn_at;
+use crate::root_frame::pose_turn;
 use crate::vertex_normals::{PoseNormals, VertexNormals};
 use crate::{Binding, BindingError, RigidMotion, Root, RootFrame, Surface};
 
 /// The frames of all roots, taken along a sequence of poses.
 ///
 /// A frame's origin is the root's place at the pose. Its normal is that of the surface there, the vertices'
-/// normals weighted; its tangent the first edge of the triangle. Where a triangle tells no frame the strand keeps
+/// normals weighted; its tangent at rest is the first edge of the triangle, and turns with the triangle as a whole.
+/// Where a triangle tells no frame the strand keeps
 /// the rotation of the last pose that did, the rest pose's before there was any, and only moves with its place:
 ///
-/// - the triangle has collapsed: it has no area, or its first edge stands along the normal;
+/// - the triangle has collapsed: it has no area;
 /// - it is turned over: it faces against its vertices' normals, which its neighbours make as well, and did not so at
 ///   rest (or the other way round). Where a whole neighbourhood turns, its normals turn with it, and that is a motion
 ///   like another.
@@ -139,12 +140,10 @@ fn renew(
     let corners = surface.corners(positions, root.triangle);
     frame.origin = place(corners, root.barycentrics);
     let at_corners = surface.triangles[root.triangle as usize].map(|vertex| normals.at(vertex));
-    let turn = turn_at(corners, at_corners, root.barycentrics, mirrored);
-    match turn {
-        Some(turn) if root.faced_out == Some(turn.faces_out) => {
-            frame.rotation = turn.rotation;
-            true
-        }
-        _ => false,
+    let turn =
+        root.facing.and_then(|facing| pose_turn(corners, at_corners, root.barycentrics, &facing, mirrored));
+    if let Some(rotation) = turn {
+        frame.rotation = rotation;
     }
+    turn.is_some()
 }

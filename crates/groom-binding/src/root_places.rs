@@ -1,13 +1,12 @@
 //! Where on the surface every root belongs.
 
-use std::ops::Range;
-
 use glam::{DVec3, Vec2};
 use groom::{Attribute, Domain, Groom, Values, names};
 use rayon::prelude::*;
 
 use crate::root::place;
 use crate::root_frame::has_area;
+use crate::surface::bounds;
 use crate::surface_tree::{Nearest, Search, SurfaceTree};
 use crate::{BindBy, BindingError, ROOT_TRIANGLE, Surface, closest_point};
 
@@ -29,7 +28,7 @@ pub(crate) enum Found {
     Nearby,
 }
 
-/// Strands that look for their place in one go: neighbours in a groom are mostly neighbours on the head.
+/// Strands that look for their place in one go.
 const BLOCK: usize = 256;
 
 /// How far apart two places of one texture coordinate are before they are two, in sizes of the mesh; and how far
@@ -77,20 +76,52 @@ pub(crate) fn root(groom: &Groom, strand: usize) -> DVec3 {
 }
 
 /// Asks for the place of every strand, in parallel.
+///
+/// Strands are taken in the order of a curve through space: the last answer is then near the next, wherever in the
+/// groom a strand is.
 fn in_blocks(
     groom: &Groom,
     find: impl Fn(usize, &mut Search) -> Result<Place, BindingError> + Sync,
 ) -> Result<Vec<Place>, BindingError> {
-    let count = groom.strand_count();
-    let block = |number: usize| -> Range<usize> { number * BLOCK..((number + 1) * BLOCK).min(count) };
-    let blocks: Result<Vec<Vec<Place>>, BindingError> = (0..count.div_ceil(BLOCK))
-        .into_par_iter()
-        .map(|number| {
+    let order = along_a_curve(groom);
+    let found: Result<Vec<Vec<(u32, Place)>>, BindingError> = order
+        .par_chunks(BLOCK)
+        .map(|strands| {
             let mut search = Search::default();
-            block(number).map(|strand| find(strand, &mut search)).collect()
+            let of = |&strand: &u32| Ok((strand, find(strand as usize, &mut search)?));
+            strands.iter().map(of).collect()
         })
         .collect();
-    Ok(blocks?.concat())
+    let nowhere = Place { triangle: 0, barycentrics: DVec3::X, found: Found::Surely };
+    let mut places = vec![nowhere; groom.strand_count()];
+    for (strand, place) in found?.into_iter().flatten() {
+        places[strand as usize] = place;
+    }
+    Ok(places)
+}
+
+/// The strands by where their roots are on a Morton curve of 1024 steps a side.
+fn along_a_curve(groom: &Groom) -> Vec<u32> {
+    let roots = || (0..groom.strand_count()).map(|strand| root(groom, strand));
+    let (low, high) = bounds(roots());
+    let scale = 1023.0 / (high - low).max_element().max(f64::MIN_POSITIVE);
+    let key = |at: DVec3| {
+        // Not-a-number, of a groom of one point, becomes 0.
+        let cell = (at - low) * scale;
+        spread(cell.x as u32) | spread(cell.y as u32) << 1 | spread(cell.z as u32) << 2
+    };
+    let mut order: Vec<(u32, u32)> = roots().map(key).zip(0..).collect();
+    order.sort_unstable();
+    order.into_iter().map(|(_, strand)| strand).collect()
+}
+
+/// Ten bits with two empty ones after each.
+fn spread(bits: u32) -> u32 {
+    let bits = bits.min(1023);
+    let bits = (bits | bits << 16) & 0x0300_00ff;
+    let bits = (bits | bits << 8) & 0x0300_f00f;
+    let bits = (bits | bits << 4) & 0x030c_30c3;
+    (bits | bits << 2) & 0x0924_9249
 }
 
 /// The tree over the triangles that have an area; over all when none has. Strands on a triangle without one would

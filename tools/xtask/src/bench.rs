@@ -5,7 +5,7 @@ use anyhow::Result;
 use crate::shell::{cargo, step};
 
 /// Every bench program of the workspace, low to high.
-const BENCHES: [(&str, &str); 10] = [
+const BENCHES: [(&str, &str); 11] = [
     ("cyhair", "read"),
     ("usd-layer", "read"),
     ("groom-formats", "convert"),
@@ -15,6 +15,7 @@ const BENCHES: [(&str, &str); 10] = [
     ("fibre-scattering", "scattering"),
     ("strand-tracing", "rays"),
     ("strand-tracing", "motion"),
+    ("groom-binding", "carry"),
     ("hair-render-cli", "straight_hair"),
 ];
 

@@ -6,7 +6,8 @@ use groom_binding::{BindOptions, Binding, RootFrames, carry_rigid};
 use moving_mesh::Pose;
 use proptest::prelude::*;
 
-use crate::shapes::{egg, strands};
+use crate::shapes::egg;
+use crate::strands;
 
 fn vector(most: f64) -> impl Strategy<Value = DVec3> {
     [-most..most, -most..most, -most..most].prop_map(DVec3::from)

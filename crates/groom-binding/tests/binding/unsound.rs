@@ -3,9 +3,8 @@
 use glam::{DQuat, DVec3, Vec3};
 use groom::Groom;
 use groom_binding::{BindOptions, Binding, RootFrames};
-use moving_mesh::Pose;
 
-use crate::shapes::{Mesh, egg};
+use crate::shapes::{Mesh, egg, sheet};
 
 /// One strand at the middle of each triangle.
 fn one_a_triangle(mesh: &Mesh) -> Groom {
@@ -37,19 +36,6 @@ impl Bound {
     fn strand_on(&self, triangle: u32) -> usize {
         self.binding.roots().iter().position(|root| root.triangle == triangle).unwrap()
     }
-}
-
-fn flat_grid(n: u32) -> Mesh {
-    let vertex = |x: u32, z: u32| z * (n + 1) + x;
-    let positions: Vec<DVec3> =
-        (0..=n).flat_map(|z| (0..=n).map(move |x| DVec3::new(f64::from(x), 0.0, f64::from(z)))).collect();
-    let square = |x: u32, z: u32| {
-        let [a, b, c, d] = [vertex(x, z), vertex(x + 1, z), vertex(x + 1, z + 1), vertex(x, z + 1)];
-        [[a, d, b], [b, d, c]]
-    };
-    let triangles = (0..n).flat_map(|z| (0..n).flat_map(move |x| square(x, z))).collect();
-    let uvs = vec![glam::Vec2::ZERO; positions.len()];
-    Mesh { triangles, rest: Pose { positions, normals: None }, uvs }
 }
 
 #[test]
@@ -84,7 +70,7 @@ fn a_collapsed_triangle_keeps_the_last_frame_and_moves() {
 
 #[test]
 fn a_triangle_turned_over_keeps_the_last_frame() {
-    let bound = Bound::new(flat_grid(8));
+    let bound = Bound::new(sheet(8));
     let mut frames = bound.frames();
     frames.follow(&bound.mesh.rest).unwrap();
     let before: Vec<DQuat> = frames.frames().iter().map(|f| f.rotation).collect();
@@ -106,7 +92,7 @@ fn a_triangle_turned_over_keeps_the_last_frame() {
 /// A whole sheet that is turned over is turned, however it is done; no triangle holds still.
 #[test]
 fn a_neighbourhood_that_turns_is_no_flip() {
-    let bound = Bound::new(flat_grid(4));
+    let bound = Bound::new(sheet(4));
     let mut frames = bound.frames();
     for pose in [bound.mesh.posed(|p| -p.with_z(-p.z)), bound.mesh.posed(|p| p.with_x(-p.x))] {
         frames.follow(&pose).unwrap();
