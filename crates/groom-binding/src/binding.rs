@@ -122,7 +122,7 @@ fn bind(
     &Place { triangle, barycentrics, .. }: &Place,
 ) -> (Root, f64) {
     let corners = surface.corners(&surface.rest.positions, triangle);
-    let at_corners = surface.triangles[triangle as usize].map(|vertex| normals.at(vertex));
+    let at_corners = normals.at_corners(surface.triangles[triangle as usize]);
     let (rotation, facing) = match rest_turn(corners, at_corners, barycentrics) {
         Some((rotation, facing)) => (rotation, Some(facing)),
         None => (DQuat::IDENTITY, None),

@@ -2,7 +2,8 @@
 //!
 //! Ericson, Real-Time Collision Detection (2005), 5.1.5, taken in another order so that triangles without an
 //! area need no case of their own: the foot of the perpendicular where it lies inside, else the nearest point
-//! of the three edges, each found by itself.
+//! of the edges that it lies beyond, each found by itself. (The nearest point of a convex figure is on a side that one
+//! stands outside of.)
 
 use glam::DVec3;
 
@@ -15,34 +16,42 @@ pub(crate) struct OnTriangle {
 
 /// The point of the triangle nearest to the origin: one moves the triangle, which loses fewer digits than
 /// moving the answer. Of edges equally near the first counts.
+#[inline]
 pub(crate) fn to_origin([a, b, c]: [DVec3; 3]) -> OnTriangle {
-    if let Some(inside) = foot(a, b, c) {
-        return inside;
-    }
-    let (ab, bc, ca) = (along(a, b), along(b, c), along(c, a));
-    let candidates = [
-        (DVec3::new(1.0 - ab.0, ab.0, 0.0), ab.1),
-        (DVec3::new(0.0, 1.0 - bc.0, bc.0), bc.1),
-        (DVec3::new(ca.0, 0.0, 1.0 - ca.0), ca.1),
-    ];
-    let [first, rest @ ..] = candidates;
-    let nearest = rest.into_iter().fold(first, |best, other| if other.1 < best.1 { other } else { best });
-    OnTriangle { barycentrics: nearest.0, distance_squared: nearest.1 }
-}
-
-/// The foot of the perpendicular, where the triangle has one.
-fn foot(a: DVec3, b: DVec3, c: DVec3) -> Option<OnTriangle> {
     let (ab, ac) = (b - a, c - a);
     let area = ab.cross(ac);
-    let length_squared = area.length_squared();
-    let v = ac.cross(a).dot(area) / length_squared;
-    let w = a.cross(ab).dot(area) / length_squared;
-    let u = 1.0 - v - w;
-    // Not-a-number, where there is no area, is inside nothing.
-    (u >= 0.0 && v >= 0.0 && w >= 0.0).then(|| OnTriangle {
-        barycentrics: DVec3::new(u, v, w),
-        distance_squared: (a + v * ab + w * ac).length_squared(),
-    })
+    // The weights of the foot, each times the same positive number.
+    let v = ac.cross(a).dot(area);
+    let w = a.cross(ab).dot(area);
+    let whole = area.length_squared();
+    let u = whole - v - w;
+    if whole > 0.0 && u >= 0.0 && v >= 0.0 && w >= 0.0 {
+        let (v, w) = (v / whole, w / whole);
+        // Rounding may take what is left of 1 below nothing.
+        let barycentrics = DVec3::new((1.0 - v - w).max(0.0), v, w);
+        return OnTriangle { barycentrics, distance_squared: (a + v * ab + w * ac).length_squared() };
+    }
+    let mut nearest = OnTriangle { barycentrics: DVec3::X, distance_squared: f64::INFINITY };
+    let mut consider = |barycentrics, distance_squared| {
+        if distance_squared < nearest.distance_squared {
+            nearest = OnTriangle { barycentrics, distance_squared };
+        }
+    };
+    // A triangle without an area is beyond all its edges.
+    let flat = whole.is_nan() || whole <= 0.0;
+    if flat || w < 0.0 {
+        let (t, distance) = along(a, b);
+        consider(DVec3::new(1.0 - t, t, 0.0), distance);
+    }
+    if flat || u < 0.0 {
+        let (t, distance) = along(b, c);
+        consider(DVec3::new(0.0, 1.0 - t, t), distance);
+    }
+    if flat || v < 0.0 {
+        let (t, distance) = along(c, a);
+        consider(DVec3::new(t, 0.0, 1.0 - t), distance);
+    }
+    nearest
 }
 
 /// How far along the edge from `a` to `b` its point nearest to the origin lies, 0..=1, and its distance squared.

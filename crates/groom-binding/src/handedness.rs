@@ -8,6 +8,7 @@
 
 use glam::DVec3;
 
+use crate::surface::corners;
 use crate::vertex_normals::{PoseNormals, unit};
 
 /// How curved a surface must be before its sense counts: [`curvature`] is 7.1 for a ball, 5 for half of one,
@@ -49,8 +50,8 @@ fn curvature(triangles: &[[u32; 3]], positions: &[DVec3], normals: &PoseNormals<
     let (mut growth, mut twice_area) = (0.0, 0.0);
     let step = triangles.len() / LOOKED_AT + 1;
     for triangle in triangles.iter().step_by(step) {
-        let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
-        let [na, nb, nc] = triangle.map(|vertex| normals.at(vertex));
+        let [a, b, c] = corners(positions, *triangle);
+        let [na, nb, nc] = normals.at_corners(*triangle);
         let (ab, ac) = (b - a, c - a);
         let area = ab.cross(ac);
         let grown = (nb - na).cross(ac) + ab.cross(nc - na);

@@ -139,7 +139,7 @@ fn renew(
 ) -> bool {
     let corners = surface.corners(positions, root.triangle);
     frame.origin = place(corners, root.barycentrics);
-    let at_corners = surface.triangles[root.triangle as usize].map(|vertex| normals.at(vertex));
+    let at_corners = normals.at_corners(surface.triangles[root.triangle as usize]);
     let turn =
         root.facing.and_then(|facing| pose_turn(corners, at_corners, root.barycentrics, &facing, mirrored));
     if let Some(rotation) = turn {

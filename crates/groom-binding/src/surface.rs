@@ -64,7 +64,7 @@ impl Surface<'_> {
     /// The vertices of triangle `triangle` at `positions`.
     #[inline]
     pub(crate) fn corners(&self, positions: &[DVec3], triangle: u32) -> [DVec3; 3] {
-        self.triangles[triangle as usize].map(|vertex| positions[vertex as usize])
+        corners(positions, self.triangles[triangle as usize])
     }
 
     /// The diagonal of the box round the rest pose, in its units: what "the size of the mesh" means. 0 without
@@ -74,6 +74,12 @@ impl Surface<'_> {
         let (low, high) = bounds(self.rest.positions.iter().copied());
         if low.x <= high.x { low.distance(high) } else { 0.0 }
     }
+}
+
+/// Where the vertices of a triangle are. (Written out, as `map` on an array is a call for each in hot loops.)
+#[inline]
+pub(crate) fn corners(positions: &[DVec3], [a, b, c]: [u32; 3]) -> [DVec3; 3] {
+    [positions[a as usize], positions[b as usize], positions[c as usize]]
 }
 
 /// The box round points; an empty one is upside down.

@@ -1,6 +1,6 @@
 //! Which triangle is nearest to a place: a tree of boxes.
 
-use glam::DVec3;
+use glam::{DVec3, Vec3A};
 use obvhs::aabb::Aabb;
 use obvhs::bvh2::Bvh2;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
@@ -108,6 +108,7 @@ impl SurfaceTree {
         limit: impl Fn(&S) -> f64,
         mut visit: impl FnMut(&Self, DVec3, u32, &mut S),
     ) {
+        let seeker = Seeker::new(point);
         let waiting = &mut search.waiting;
         waiting.clear();
         if !self.tree.nodes.is_empty() {
@@ -124,14 +125,19 @@ impl SurfaceTree {
                 }
                 continue;
             }
-            let children = [node.first_index, node.first_index + 1];
-            let mut children = children.map(|c| (to_box(point, &self.tree.nodes[c as usize].aabb), c));
+            let first = node.first_index;
+            let child = |child: u32| (seeker.bound(&self.tree.nodes[child as usize].aabb), child);
+            let mut children = [child(first), child(first + 1)];
             // The nearer one is taken first: it is put on top.
             if children[0].0 < children[1].0 {
                 children.swap(0, 1);
             }
             let limit = limit(state) * SLACK;
-            waiting.extend(children.into_iter().filter(|child| child.0 <= limit));
+            for child in children {
+                if child.0 <= limit {
+                    waiting.push(child);
+                }
+            }
         }
     }
 
@@ -143,8 +149,8 @@ impl SurfaceTree {
 
     #[inline]
     fn try_triangle(&self, point: DVec3, place: u32, best: &mut Best) {
-        let (corners, triangle) = self.triangles[place as usize];
-        let found = closest_point::to_origin(corners.map(|p| p - point));
+        let &([a, b, c], triangle) = &self.triangles[place as usize];
+        let found = closest_point::to_origin([a - point, b - point, c - point]);
         if (found.distance_squared, triangle) < (best.distance, best.triangle) {
             *best = Best { distance: found.distance_squared, triangle, weights: found.barycentrics, place };
         }
@@ -166,11 +172,32 @@ struct Best {
     place: u32,
 }
 
-/// The squared distance from a place to a box, 0 inside.
-#[inline]
-fn to_box(point: DVec3, aabb: &Aabb) -> f64 {
-    let (low, high) = (aabb.min.as_dvec3(), aabb.max.as_dvec3());
-    (low - point).max(point - high).max(DVec3::ZERO).length_squared()
+/// A place, as boxes are asked about it.
+#[derive(Clone, Copy)]
+struct Seeker {
+    exact: DVec3,
+    near: Vec3A,
+    /// What rounding to f32 may add to a difference; `None` where that is too much and f64 is called for.
+    rounding: Option<Vec3A>,
+}
+
+impl Seeker {
+    fn new(point: DVec3) -> Self {
+        let size = 1.0 + point.abs().max_element();
+        let rounding = (size < 100.0).then(|| Vec3A::splat(size as f32 * 2.5 * f32::EPSILON));
+        Seeker { exact: point, near: point.as_vec3a(), rounding }
+    }
+
+    /// A squared distance that nothing in the box is nearer than, 0 inside.
+    #[inline]
+    fn bound(&self, aabb: &Aabb) -> f64 {
+        if let Some(rounding) = self.rounding {
+            let apart = (aabb.min - self.near).max(self.near - aabb.max) - rounding;
+            return f64::from(apart.max(Vec3A::ZERO).length_squared()) * (1.0 - 1e-6);
+        }
+        let (low, high) = (aabb.min.as_dvec3(), aabb.max.as_dvec3());
+        (low - self.exact).max(self.exact - high).max(DVec3::ZERO).length_squared()
+    }
 }
 
 /// A box in single precision that holds a triangle for certain.

@@ -5,6 +5,7 @@ use std::cmp::Ordering;
 use glam::DVec3;
 
 use crate::Surface;
+use crate::surface::corners;
 
 /// How the triangles of a surface share their vertices' normals.
 ///
@@ -64,8 +65,14 @@ pub(crate) struct PoseNormals<'a> {
 impl PoseNormals<'_> {
     /// The normal of a vertex.
     #[inline]
-    pub(crate) fn at(&self, vertex: u32) -> DVec3 {
+    fn at(&self, vertex: u32) -> DVec3 {
         self.normals[self.shared[vertex as usize] as usize]
+    }
+
+    /// The normals of a triangle's vertices.
+    #[inline]
+    pub(crate) fn at_corners(&self, [a, b, c]: [u32; 3]) -> [DVec3; 3] {
+        [self.at(a), self.at(b), self.at(c)]
     }
 }
 
@@ -73,7 +80,7 @@ impl PoseNormals<'_> {
 fn area_sums(triangles: &[[u32; 3]], positions: &[DVec3], shared: &[u32]) -> Vec<DVec3> {
     let mut sums = vec![DVec3::ZERO; positions.len()];
     for triangle in triangles {
-        let [a, b, c] = triangle.map(|vertex| positions[vertex as usize]);
+        let [a, b, c] = corners(positions, *triangle);
         let area = (b - a).cross(c - a);
         for &vertex in triangle {
             sums[shared[vertex as usize] as usize] += area;

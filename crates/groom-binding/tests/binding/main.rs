@@ -8,7 +8,6 @@ mod kept_out;
 mod laws;
 mod motion;
 mod places;
-mod root_attributes;
 #[path = "../../src/stability/shapes.rs"]
 #[allow(dead_code)]
 mod shapes;
