@@ -8,7 +8,8 @@ use groom_binding::{
 };
 use moving_mesh::Pose;
 
-use crate::shapes::{Mesh, egg, strands};
+use crate::shapes::{Mesh, egg};
+use crate::strands;
 
 fn blended(blend: Blend) -> CarryOptions {
     CarryOptions { mode: CarryMode::Blended(blend), ..CarryOptions::default() }

@@ -5,7 +5,8 @@ use groom::Groom;
 use groom_binding::{BindOptions, Binding, Blend, Carrier, CarryMode, CarryOptions, Moved, Stencil};
 
 use crate::motion::{Motion, morphing};
-use crate::shapes::{Mesh, egg, strands};
+use crate::shapes::{Mesh, egg};
+use crate::strands;
 
 fn collapsing(p: DVec3, t: f64) -> DVec3 {
     p * (1.0 - t).max(0.0)

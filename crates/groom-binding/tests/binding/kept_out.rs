@@ -5,7 +5,8 @@ use groom::Groom;
 use groom_binding::{BindOptions, Binding, Carrier, CarryOptions, CarryReport};
 use moving_mesh::Pose;
 
-use crate::shapes::{Mesh, egg, strands};
+use crate::shapes::{Mesh, egg};
+use crate::strands;
 
 /// How often the mesh winds round a place: 1 inside, 0 outside (van Oosterom, Strackee: The Solid Angle of a Plane
 /// Triangle, 1983).

@@ -8,7 +8,8 @@ use groom_binding::{
 };
 use moving_mesh::Pose;
 
-use crate::shapes::{Mesh, egg, strands};
+use crate::shapes::{Mesh, egg};
+use crate::strands;
 
 /// A mesh in motion: where a vertex is at a time.
 pub type Motion = fn(DVec3, f64) -> DVec3;
