@@ -1,6 +1,6 @@
 //! Binding and rigid carry.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
+#![allow(clippy::unwrap_used, clippy::panic, clippy::print_stdout)] // tests fail by panicking and print figures
 
 mod blended;
 mod hard_cases;
@@ -8,6 +8,8 @@ mod kept_out;
 mod laws;
 mod motion;
 mod places;
+mod real;
+mod root_attributes;
 #[path = "../../src/stability/shapes.rs"]
 #[allow(dead_code)]
 mod shapes;
