@@ -13,6 +13,16 @@ pub struct Camera {
     target: DVec3,
     up: DVec3,
     vertical_fov: f64,
+    /// Of a camera that was placed on an orbit.
+    orbit: Option<Orbit>,
+}
+
+/// Where on a sphere about its target a camera stands; radians.
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Orbit {
+    distance: f64,
+    azimuth: f64,
+    elevation: f64,
 }
 
 impl Camera {
@@ -28,6 +38,14 @@ impl Camera {
         up: DVec3,
         vertical_fov: f64,
     ) -> Result<Self, RenderError> {
+        let camera = Camera { position, target, up, vertical_fov, orbit: None };
+        camera.check()?;
+        Ok(camera)
+    }
+
+    /// Whether a picture can be taken with it.
+    pub(crate) fn check(&self) -> Result<(), RenderError> {
+        let Camera { position, target, up, vertical_fov, .. } = *self;
         if !(position.is_finite() && target.is_finite() && up.is_finite()) {
             return Err(RenderError::argument("camera", "not finite", "finite numbers"));
         }
@@ -44,7 +62,7 @@ impl Camera {
         if forward.cross(up).length() <= 1e-9 * up.length() || up == DVec3::ZERO {
             return Err(RenderError::argument("camera up", up, "a direction across the view"));
         }
-        Ok(Camera { position, target, up, vertical_fov })
+        Ok(())
     }
 
     /// A camera on a sphere about `target`. Azimuth 0 stands on the +Z side and grows towards +X
@@ -64,12 +82,37 @@ impl Camera {
         if distance.is_nan() || distance <= 0.0 {
             return Err(RenderError::argument("camera distance", distance, "above 0"));
         }
-        let (sin_azimuth, cos_azimuth) = azimuth.sin_cos();
-        let (sin_elevation, cos_elevation) = elevation.sin_cos();
+        let camera = Camera::on(Orbit { distance, azimuth, elevation }, target, vertical_fov);
+        camera.check()?;
+        Ok(camera)
+    }
+
+    fn on(orbit: Orbit, target: DVec3, vertical_fov: f64) -> Camera {
+        let (sin_azimuth, cos_azimuth) = orbit.azimuth.sin_cos();
+        let (sin_elevation, cos_elevation) = orbit.elevation.sin_cos();
         let horizontal = DVec3::new(sin_azimuth, 0.0, cos_azimuth);
         let back = horizontal * cos_elevation + DVec3::Y * sin_elevation;
         let up = DVec3::Y * cos_elevation - horizontal * sin_elevation;
-        Camera::look_at(target + back * distance, target, up, vertical_fov)
+        Camera { position: target + back * orbit.distance, target, up, vertical_fov, orbit: Some(orbit) }
+    }
+
+    /// The camera at the share `share` (0..1) of the way to `to`: on the arc where both stand on orbits,
+    /// else straight.
+    pub(crate) fn toward(&self, to: &Camera, share: f64) -> Camera {
+        let mix = |a: f64, b: f64| a + (b - a) * share;
+        let target = self.target.lerp(to.target, share);
+        let vertical_fov = mix(self.vertical_fov, to.vertical_fov);
+        if let (Some(a), Some(b)) = (self.orbit, to.orbit) {
+            let orbit = Orbit {
+                distance: mix(a.distance, b.distance),
+                azimuth: mix(a.azimuth, b.azimuth),
+                elevation: mix(a.elevation, b.elevation),
+            };
+            return Camera::on(orbit, target, vertical_fov);
+        }
+        let up = self.up.normalize_or_zero().lerp(to.up.normalize_or_zero(), share);
+        let position = self.position.lerp(to.position, share);
+        Camera { position, target, up, vertical_fov, orbit: None }
     }
 
     /// An orbit camera far enough away that the sphere about `bounds` fits the picture, with a

@@ -14,8 +14,9 @@ use serde::Serialize;
 use crate::Environment;
 use crate::color_probe::{Probe, Seen};
 use crate::color_search::{Channel, Reach};
+use crate::exposure::Exposure;
 use crate::lights::Lights;
-use crate::{Camera, Progress, RenderError, RenderSettings, Scene};
+use crate::{Camera, MovingCamera, Progress, RenderError, RenderSettings, Scene};
 
 /// What is to be matched, and how closely.
 #[derive(Clone, Debug, PartialEq)]
@@ -131,7 +132,7 @@ fn search(
     let start = Instant::now();
     let probe = Probe {
         object: matching.object as u32,
-        lens: camera.lens(scene.center(), matching.size, matching.size),
+        exposure: Exposure::new(scene, &MovingCamera::from(*camera), matching.size, matching.size),
         patch: matching.pixels(),
         spp: matching.spp,
         settings,

@@ -3,7 +3,7 @@
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::camera::Lens;
+use crate::exposure::Exposure;
 use crate::path::PathTracer;
 use crate::sampler::Sampler;
 use crate::{Progress, RenderError, RenderSettings, Scene};
@@ -14,7 +14,7 @@ const REPLICAS: usize = 8;
 /// What is looked at, and how closely.
 pub(crate) struct Probe<'a> {
     pub object: u32,
-    pub lens: Lens,
+    pub exposure: Exposure,
     /// Left, upper, right and lower edge of the part that counts, in pixels.
     pub patch: [u32; 4],
     /// Samples a pixel; rounded up to a multiple of the replicas.
@@ -67,9 +67,9 @@ impl Probe<'_> {
                 let seed = self.settings.seed.wrapping_add(replica as u64);
                 for index in 0..self.spp.div_ceil(REPLICAS as u32) {
                     let sampler = Sampler::new(seed, x, y, 0, index);
-                    let [u, v, ..] = PathTracer::camera_numbers(&sampler);
-                    let direction = self.lens.direction(x as f32 + u, y as f32 + v);
-                    let light = paths.trace(self.lens.origin, direction, &sampler);
+                    let [u, v, when, _] = PathTracer::camera_numbers(&sampler);
+                    let ray = self.exposure.ray(x as f32 + u, y as f32 + v, when);
+                    let light = paths.trace(ray, &sampler);
                     let radiance: Vec3 = light.parts.iter().sum();
                     if light.fibre == Some(self.object) && radiance.is_finite() {
                         sum.light += radiance.as_dvec3();

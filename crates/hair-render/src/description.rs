@@ -1,11 +1,11 @@
 //! What a scene is made of, before anything is built from it.
 
 use fibre_material::Material;
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use groom::Groom;
 use moving_mesh::TriangleMesh;
 
-use crate::{AreaLight, Environment};
+use crate::{AreaLight, Environment, Motion, Shutter};
 
 /// What the groom's `transparency` attribute does to light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -38,6 +38,20 @@ pub struct HairObject {
     pub groom: Groom,
     /// How they scatter.
     pub material: HairMaterial,
+    /// What the groom's positions are relative to, in its unit and axes: 0, or the place of a character so far
+    /// away that single precision would lose its shape.
+    pub origin: DVec3,
+    /// Where the strands go while the shutter is open, in the groom's unit and axes, relative to `origin`. Their
+    /// radii, and all else about them, are the groom's throughout.
+    pub motion: Motion,
+}
+
+impl HairObject {
+    /// Strands that stand still, in their own coordinates.
+    #[must_use]
+    pub fn still(groom: Groom, material: HairMaterial) -> Self {
+        HairObject { groom, material, origin: DVec3::ZERO, motion: Motion::STILL }
+    }
 }
 
 /// A matte mesh: both sides reflect by Lambert's law, smoothly where the mesh has normals, as flat
@@ -48,6 +62,21 @@ pub struct MeshObject {
     pub mesh: TriangleMesh,
     /// Reflected share of the light, linear Rec. 709, 0..1.
     pub albedo: Vec3,
+    /// What the mesh's positions are relative to, in world metres.
+    pub origin: DVec3,
+    /// Where the vertices go while the shutter is open, in world metres relative to `origin`.
+    pub motion: Motion,
+    /// How the vertices' normals turn meanwhile, where the mesh has any; they stay as they are when nothing is
+    /// said.
+    pub turning: Motion,
+}
+
+impl MeshObject {
+    /// A mesh that stands still, in world coordinates.
+    #[must_use]
+    pub fn still(mesh: TriangleMesh, albedo: Vec3) -> Self {
+        MeshObject { mesh, albedo, origin: DVec3::ZERO, motion: Motion::STILL, turning: Motion::STILL }
+    }
 }
 
 /// A scene as its parts; see [`crate::Scene::build`].
@@ -61,4 +90,7 @@ pub struct SceneDescription {
     pub environment: Option<Environment>,
     /// Shining rectangles, in world metres, Y up.
     pub lights: Vec<AreaLight>,
+    /// When light is let in: what the keys of all motion are spread over. Nothing comes of it where nothing
+    /// moves.
+    pub shutter: Shutter,
 }

@@ -4,7 +4,9 @@ use fibre_material::{Dressed, Varying};
 use fibre_scattering::Absorption;
 use groom::{Attribute, Groom, names};
 
-use crate::{Aov, Background, HairObject, RenderSettings, SceneDescription, Transparency};
+use crate::{
+    Aov, Background, HairObject, Motion, MovingCamera, RenderSettings, SceneDescription, Transparency,
+};
 
 /// Something that was not loaded, built or computed.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -22,7 +24,7 @@ pub struct LeftOut {
 #[must_use]
 pub fn explain(description: &SceneDescription, settings: &RenderSettings) -> Vec<LeftOut> {
     let mut list = List(Vec::new());
-    list.add("motion in the tree", "nothing moves within a frame: boxes and points are held once");
+    motion(description, &mut list);
     if !description.hair.iter().any(|object| object.material.fibre.medulla.scatters()) {
         list.add("medulla tables", "no fibre has a medulla that scatters");
     }
@@ -43,6 +45,38 @@ impl List {
     fn add(&mut self, what: impl Into<String>, why: impl Into<String>) {
         self.0.push(LeftOut { what: what.into(), why: why.into() });
     }
+}
+
+/// What is not blurred.
+fn motion(description: &SceneDescription, list: &mut List) {
+    let hair = description.hair.iter().map(|h| ("hair", &h.motion));
+    let meshes = description.meshes.iter().map(|m| ("mesh", &m.motion));
+    let moves = hair.clone().chain(meshes.clone()).any(|(_, motion)| motion.moves());
+    if !moves {
+        list.add("motion in the tree", "nothing moves within a frame: boxes and points are held once");
+    }
+    for (index, (kind, motion)) in hair.enumerate().chain(meshes.enumerate()) {
+        if motion.key_count() > 1 && !motion.moves() {
+            let why = format!("all {} keys are the same: one is held", motion.key_count());
+            list.add(format!("{kind} {index}: its motion"), why);
+        } else if moves && !motion.moves() {
+            list.add(format!("{kind} {index}: motion keys"), "it stands still: its points are held once");
+        }
+    }
+}
+
+/// What is left out for a camera; to be told beside [`explain`].
+#[must_use]
+pub fn explain_camera(description: &SceneDescription, camera: &MovingCamera) -> Vec<LeftOut> {
+    let mut list = List(Vec::new());
+    if !camera.moves() {
+        list.add("a lens for each sample", "the camera stands still: one serves all");
+        let of_meshes = description.meshes.iter().flat_map(|m| [&m.motion, &m.turning]);
+        if !description.hair.iter().map(|h| &h.motion).chain(of_meshes).any(Motion::moves) {
+            list.add("times of samples", "nothing moves: all are of one moment, whatever the shutter");
+        }
+    }
+    list.0
 }
 
 fn light(description: &SceneDescription, list: &mut List) {
@@ -136,7 +170,7 @@ mod tests {
         let mut material = HairMaterial::default();
         change(&mut groom, &mut material);
         let description =
-            SceneDescription { hair: vec![HairObject { groom, material }], ..Default::default() };
+            SceneDescription { hair: vec![HairObject::still(groom, material)], ..Default::default() };
         let told = explain(&description, &RenderSettings::default());
         told.into_iter().find(|left| left.what == "hair 0: absorption by vertex").map(|left| left.why)
     }
@@ -167,7 +201,7 @@ mod tests {
         let mut material = HairMaterial::default();
         material.fibre.parameters.lobe_weights[3] = 0.0;
         let mut description = SceneDescription {
-            hair: vec![HairObject { groom, material }],
+            hair: vec![HairObject::still(groom, material)],
             environment: Some(Environment::constant(Vec3::ONE).unwrap()),
             ..Default::default()
         };

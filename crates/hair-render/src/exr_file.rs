@@ -33,6 +33,10 @@ pub struct Metadata {
     pub camera: Option<Camera>,
     /// How the colours are stored.
     pub precision: Precision,
+    /// Frames a second, where there is more than one; stored as `framesPerSecond`.
+    pub frame_rate: Option<f64>,
+    /// Seconds that the shutter is open, of a picture that can be blurred; stored as `expTime`.
+    pub exposure_seconds: Option<f64>,
     /// More attributes; keys must not be empty.
     pub extra: BTreeMap<String, String>,
 }
@@ -43,7 +47,9 @@ impl Frame {
     /// One part, ZIP compressed. Beauty and alpha are the channels `R`, `G`, `B`, `A`; a pass `TT` is
     /// `TT.R`, `TT.G`, `TT.B`. Attributes: `software`, `command`, `digest`, `seed`, `spp`, `seconds`,
     /// `threads`, `relMSE`, `relativeError` (left out when not known), `colorInteropID` =
-    /// `lin_rec709_scene`, `chromaticities`, `worldToCamera` and the extra ones.
+    /// `lin_rec709_scene`, `chromaticities`, `worldToCamera` and the extra ones. A picture with blur also has
+    /// `shutter` (opening:closing in frames, shape) and, where they move, `motionKeys` and `cameraKeys`;
+    /// `expTime` and `framesPerSecond` where the metadata know them.
     ///
     /// # Errors
     /// [`RenderError::Io`] or [`RenderError::Encode`]; the old file, if any, is then untouched.
@@ -68,6 +74,8 @@ impl Frame {
             software_name: Some(text(concat!("groomkit hair-render ", env!("CARGO_PKG_VERSION")))),
             // OpenEXR multiplies row vectors: its rows are our columns.
             world_to_camera: metadata.camera.map(|c| c.camera_from_world().as_mat4().to_cols_array()),
+            exposure: metadata.exposure_seconds.map(|seconds| seconds as f32),
+            frames_per_second: metadata.frame_rate.and_then(rational),
             ..openexr::LayerAttributes::default()
         };
         let mut put = |key: &str, value: AttributeValue| {
@@ -86,6 +94,16 @@ impl Frame {
         put("spp", AttributeValue::I32(i32::try_from(report.spp).unwrap_or(i32::MAX)));
         put("threads", AttributeValue::I32(i32::try_from(report.threads).unwrap_or(i32::MAX)));
         put("seconds", AttributeValue::F64(report.seconds));
+        if let Some(motion) = &report.motion {
+            let shutter =
+                format!("{}:{} {}", motion.shutter_open, motion.shutter_close, motion.shutter_shape);
+            put("shutter", AttributeValue::Text(text(&shutter)));
+            for (key, value) in [("motionKeys", motion.keys), ("cameraKeys", motion.camera_keys)] {
+                if let Some(value) = value {
+                    put(key, AttributeValue::I32(i32::try_from(value).unwrap_or(i32::MAX)));
+                }
+            }
+        }
         for (key, value) in [("relMSE", report.rel_mse), ("relativeError", report.relative_error)] {
             if let Some(value) = value {
                 put(key, AttributeValue::F64(value));
@@ -93,6 +111,16 @@ impl Frame {
         }
         attributes
     }
+}
+
+/// A frame rate as the fraction that OpenEXR keeps: over 1, 1001 (NTSC's) or 1000.
+fn rational(rate: f64) -> Option<(i32, u32)> {
+    let over = [1u32, 1001, 1000].into_iter().find(|&over| {
+        let scaled = rate * f64::from(over);
+        (scaled - scaled.round()).abs() < 1e-6 * scaled || over == 1000
+    })?;
+    let scaled = (rate * f64::from(over)).round();
+    (1.0..=f64::from(i32::MAX)).contains(&scaled).then_some((scaled as i32, over))
 }
 
 /// Linear Rec. 709 primaries with a D65 white.

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use serde::Serialize;
 
-use crate::Aov;
+use crate::{Aov, MotionReport};
 
 /// A finished picture: linear Rec. 709 radiance, row by row from the upper left.
 #[derive(Clone, Debug, PartialEq)]
@@ -55,4 +55,7 @@ pub struct FrameReport {
     pub rel_mse: Option<f64>,
     /// The square root of `rel_mse`: 0.05 reads "a typical pixel is 5 % off".
     pub relative_error: Option<f64>,
+    /// What moved while the shutter was open; `None` for a still picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub motion: Option<MotionReport>,
 }

@@ -18,7 +18,7 @@
 //! let mut groom = Groom::new(vec![0, 2], vec![Vec3::ZERO, Vec3::Y])?;
 //! groom.set_attribute(names::RADIUS, Attribute::constant_float(0.05))?;
 //! let scene = Scene::build(SceneDescription {
-//!     hair: vec![HairObject { groom, material: HairMaterial::default() }],
+//!     hair: vec![HairObject::still(groom, HairMaterial::default())],
 //!     environment: Some(Environment::constant(Vec3::ONE)?),
 //!     ..Default::default()
 //! })?;
@@ -46,6 +46,7 @@ mod environment_table;
 mod error;
 mod estimate;
 mod explain;
+mod exposure;
 mod exr_file;
 mod fibre_hit;
 mod fibres;
@@ -54,13 +55,20 @@ mod filter;
 mod frame;
 mod lights;
 mod models;
+mod motion;
+mod motion_report;
+mod moving_camera;
 mod output;
 mod path;
+mod placing;
 mod progress;
 mod render;
 mod sampler;
 mod scene;
 mod settings;
+mod shutter;
+mod shutter_shape;
+mod shutter_times;
 mod studio;
 mod surface;
 mod table_use;
@@ -76,15 +84,20 @@ pub use contact_sheet::{ContactSheet, SheetLayout};
 pub use description::{HairMaterial, HairObject, MeshObject, SceneDescription, Transparency};
 pub use environment::Environment;
 pub use error::RenderError;
-pub use explain::{LeftOut, explain};
+pub use explain::{LeftOut, explain, explain_camera};
 pub use exr_file::{Metadata, Precision};
 pub use fibre_material::{HairColor, Material};
 pub use frame::{Frame, FrameReport};
+pub use motion::Motion;
+pub use motion_report::MotionReport;
+pub use moving_camera::MovingCamera;
 pub use output::check_output;
 pub use progress::{Progress, Silent};
-pub use render::render;
+pub use render::{render, render_moving};
 pub use scene::Scene;
 pub use settings::{Background, LightSampling, RenderSettings};
+pub use shutter::{Shutter, ShutterOffset};
+pub use shutter_shape::ShutterShape;
 pub use studio::{STUDIO_WIDTH, write_studio};
 pub use table_use::TableUse;
 pub use tone_map::{Backdrop, Curve, Preview, ToneMapping, tone_map};

@@ -86,13 +86,12 @@ impl<'a> PathTracer<'a> {
         sampler.four(CAMERA_SET)
     }
 
-    /// The light that comes back along a camera ray.
-    pub fn trace(&mut self, origin: Vec3, direction: Vec3, sampler: &Sampler) -> PathLight {
+    /// The light that comes back along a camera ray. All of its path is at the ray's moment of the shutter.
+    pub fn trace(&mut self, ray: Ray, sampler: &Sampler) -> PathLight {
         let mut light = PathLight::default();
-        let ray = Ray { origin, direction, t_max: f32::INFINITY, time: 0.0 };
         let Some(hit) = self.closest(ray, None, sampler, CAMERA_SET) else {
             if self.settings.background == Background::Visible {
-                light.parts[BACKGROUND] = self.scene.lights.environment_radiance(direction);
+                light.parts[BACKGROUND] = self.scene.lights.environment_radiance(ray.direction);
                 light.alpha = 1.0;
             }
             return light;
@@ -101,7 +100,7 @@ impl<'a> PathTracer<'a> {
         if let Primitive::Segment { object, .. } = hit.primitive {
             light.fibre = Some(object);
         }
-        let (first, values) = self.scatter_on(hit, direction, sampler);
+        let (first, values) = self.scatter_on(hit, &ray, sampler);
         match first {
             FirstKind::Fibre => light.parts[..LOBES].copy_from_slice(&values),
             FirstKind::Surface => light.parts[SURFACE] = values[0],
@@ -112,13 +111,8 @@ impl<'a> PathTracer<'a> {
     /// Follows the path from its first hit. The first scattering keeps its lobes apart; all that comes
     /// after it is found once and shared by them, so that the parts add up and none is noisier than
     /// the whole.
-    fn scatter_on(
-        &mut self,
-        first_hit: Hit,
-        first_direction: Vec3,
-        sampler: &Sampler,
-    ) -> (FirstKind, Values) {
-        let (mut hit, mut direction) = (first_hit, first_direction);
+    fn scatter_on(&mut self, first_hit: Hit, camera_ray: &Ray, sampler: &Sampler) -> (FirstKind, Values) {
+        let (mut hit, mut direction, time) = (first_hit, camera_ray.direction, camera_ray.time);
         let mut kind = FirstKind::Surface;
         let mut direct: Values = [Vec3::ZERO; LOBES];
         let mut weights: Values = [Vec3::ZERO; LOBES];
@@ -128,7 +122,7 @@ impl<'a> PathTracer<'a> {
         let mut first_weight = Vec3::ONE;
         for depth in 0.. {
             let [scatter_set, light_set, pass_set] = sets_of(depth);
-            let vertex = self.vertex(&hit, -direction);
+            let vertex = self.vertex(&hit, -direction, time);
             if depth == 0 {
                 kind = vertex.kind();
             }
@@ -136,7 +130,8 @@ impl<'a> PathTracer<'a> {
             let [u, v, pick, survive] = sampler.four(light_set);
             let start = vertex.start(&hit);
             if self.next_event {
-                let found = self.next_event(&vertex, start, hit.primitive, [pick, u, v], sampler, pass_set);
+                let place = Place { start, leaving: hit.primitive, time };
+                let found = self.next_event(&vertex, place, [pick, u, v], sampler, pass_set);
                 if let Some(found) = found {
                     if depth == 0 {
                         direct = found;
@@ -162,7 +157,7 @@ impl<'a> PathTracer<'a> {
             if (throughput * first_weight).max_element() <= 0.0 {
                 break;
             }
-            let ray = Ray { origin: start, direction: wi, t_max: f32::INFINITY, time: 0.0 };
+            let ray = Ray { origin: start, direction: wi, t_max: f32::INFINITY, time };
             let next = self.closest(ray, Some(hit.primitive), sampler, pass_set);
             later += throughput * self.emitted(&ray, pdf, self.candidates(&vertex), next.as_ref());
             match next {
@@ -174,14 +169,14 @@ impl<'a> PathTracer<'a> {
         (kind, total)
     }
 
-    fn vertex(&self, hit: &Hit, toward: Vec3) -> Vertex<'a> {
+    fn vertex(&self, hit: &Hit, toward: Vec3, time: f32) -> Vertex<'a> {
         match (hit.kind, hit.primitive) {
             (HitKind::Segment { tangent, h, .. }, Primitive::Segment { object, .. }) => {
                 let point = self.scene.fibres[object as usize].point(hit);
                 Vertex::Fibre(Box::new(FibreHit::new(point, tangent, h, toward)))
             }
             (_, Primitive::Triangle { object, .. }) => {
-                Vertex::Surface(self.scene.surfaces[object as usize].at(hit, toward))
+                Vertex::Surface(self.scene.surfaces[object as usize].at(hit, toward, time))
             }
             // A hit of one kind on a primitive of the other does not exist; it would be black.
             (_, _) => Vertex::Surface(SurfaceHit::black(toward)),
@@ -196,12 +191,12 @@ impl<'a> PathTracer<'a> {
     fn next_event(
         &mut self,
         vertex: &Vertex<'_>,
-        start: Vec3,
-        leaving: Primitive,
+        place: Place,
         numbers: [f32; 3],
         sampler: &Sampler,
         pass_set: u32,
     ) -> Option<Values> {
+        let Place { start, leaving, time } = place;
         let count = self.candidates(vertex);
         let mut chosen = None;
         let mut total = 0.0;
@@ -216,7 +211,7 @@ impl<'a> PathTracer<'a> {
             }
         }
         let (candidate, importance) = chosen?;
-        let ray = Ray { origin: start, direction: candidate.direction, t_max: candidate.distance, time: 0.0 };
+        let ray = Ray { origin: start, direction: candidate.direction, t_max: candidate.distance, time };
         if self.hidden(ray, leaving, sampler, pass_set) {
             return None;
         }
@@ -313,6 +308,14 @@ impl<'a> PathTracer<'a> {
 enum FirstKind {
     Fibre,
     Surface,
+}
+
+/// Where and when a path looks for light.
+#[derive(Clone, Copy)]
+struct Place {
+    start: Vec3,
+    leaving: Primitive,
+    time: f32,
 }
 
 /// A place on a light, as one way to end the path.

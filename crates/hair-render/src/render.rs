@@ -6,13 +6,15 @@ use std::time::Instant;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-use crate::camera::Lens;
 use crate::estimate;
+use crate::exposure::Exposure;
 use crate::film::{Developed, Pixel};
 use crate::filter::Filter;
 use crate::path::{PathTracer, RayCounts};
 use crate::sampler::Sampler;
-use crate::{Camera, Frame, FrameReport, Progress, RenderError, RenderSettings, Scene};
+use crate::{
+    Camera, Frame, FrameReport, MotionReport, MovingCamera, Progress, RenderError, RenderSettings, Scene,
+};
 
 /// Pixels along a tile's edge: small enough that the last tiles keep every core busy.
 const TILE: u32 = 16;
@@ -28,13 +30,27 @@ pub fn render(
     settings: &RenderSettings,
     progress: &dyn Progress,
 ) -> Result<Frame, RenderError> {
+    render_moving(scene, &MovingCamera::from(*camera), settings, progress)
+}
+
+/// Renders a frame through a camera that moves while the shutter is open. A camera that does not gives what
+/// [`render`] gives, bit for bit.
+///
+/// # Errors
+/// As [`render`].
+pub fn render_moving(
+    scene: &Scene,
+    camera: &MovingCamera,
+    settings: &RenderSettings,
+    progress: &dyn Progress,
+) -> Result<Frame, RenderError> {
     settings.check()?;
     let start = Instant::now();
     let pool = settings.pool()?;
     let work = Work {
         scene,
         settings,
-        lens: camera.lens(scene.center(), settings.width, settings.height),
+        exposure: Exposure::new(scene, camera, settings.width, settings.height),
         filter: Filter::new(settings.filter_radius),
         progress,
         done: AtomicU64::new(0),
@@ -43,6 +59,7 @@ pub fn render(
     let tiles: Result<Vec<Tile>, RenderError> =
         pool.install(|| (0..work.total).into_par_iter().map(|index| work.tile(index)).collect());
     let mut frame = assemble(settings, &tiles?);
+    frame.report.motion = MotionReport::of(scene, camera);
     frame.report.threads = pool.current_num_threads();
     frame.report.seconds = start.elapsed().as_secs_f64();
     Ok(frame)
@@ -51,7 +68,7 @@ pub fn render(
 struct Work<'a> {
     scene: &'a Scene,
     settings: &'a RenderSettings,
-    lens: Lens,
+    exposure: Exposure,
     filter: Filter,
     progress: &'a dyn Progress,
     done: AtomicU64,
@@ -99,11 +116,11 @@ impl Work<'_> {
         for (half, count) in [(0, self.settings.spp - second), (1, second)] {
             for index in 0..count {
                 let sampler = Sampler::new(self.settings.seed, x, y, half, index);
-                let [u, v, ..] = PathTracer::camera_numbers(&sampler);
+                let [u, v, when, _] = PathTracer::camera_numbers(&sampler);
                 let film_x = x as f32 + 0.5 + self.filter.sample(u);
                 let film_y = y as f32 + 0.5 + self.filter.sample(v);
-                let direction = self.lens.direction(film_x, film_y);
-                pixel.add(half as usize, &paths.trace(self.lens.origin, direction, &sampler));
+                let ray = self.exposure.ray(film_x, film_y, when);
+                pixel.add(half as usize, &paths.trace(ray, &sampler));
             }
         }
         pixel
@@ -144,6 +161,7 @@ fn assemble(settings: &RenderSettings, tiles: &[Tile]) -> Frame {
         rejected_samples: tiles.iter().map(|t| t.rejected).sum(),
         rel_mse,
         relative_error: rel_mse.map(f64::sqrt),
+        motion: None,
     };
     Frame { width, height, beauty, alpha, passes, report }
 }

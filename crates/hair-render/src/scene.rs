@@ -1,13 +1,16 @@
 //! A scene ready to be traced: one world, one unit, one centre.
 
-use glam::{DVec3, Vec3};
-use groom::{FloatView, Groom, UpAxis};
-use strand_tracing::{BuildOptions, Radii, Strands, Tracer, Triangles};
+use glam::DVec3;
+use groom::Groom;
+use strand_tracing::Tracer;
 
 use crate::fibres::Fibres;
 use crate::lights::Lights;
+use crate::placing::{bounds_of, build_tracer};
 use crate::surface::Surface;
-use crate::{Bounds, HairMaterial, HairObject, MeshObject, RenderError, SceneDescription, TableUse};
+use crate::{
+    Bounds, HairMaterial, HairObject, MeshObject, Motion, RenderError, SceneDescription, Shutter, TableUse,
+};
 
 /// A scene ready to be rendered, any number of times and from any number of threads.
 #[derive(Debug)]
@@ -18,6 +21,8 @@ pub struct Scene {
     pub(crate) lights: Lights,
     bounds: Option<Bounds>,
     center: DVec3,
+    shutter: Shutter,
+    motion_keys: Option<usize>,
 }
 
 impl Scene {
@@ -27,14 +32,10 @@ impl Scene {
     /// # Errors
     /// [`RenderError::Argument`], [`RenderError::Scattering`] or [`RenderError::Tracing`].
     pub fn build(description: SceneDescription) -> Result<Self, RenderError> {
-        let SceneDescription { hair, meshes, environment, lights } = description;
+        let SceneDescription { hair, meshes, environment, lights, shutter } = description;
         lights.iter().try_for_each(|light| light.check())?;
-        for object in &hair {
-            let unit = object.groom.meters_per_unit;
-            if !(unit > 0.0 && unit.is_finite()) {
-                return Err(RenderError::argument("metres per unit", unit, "above 0"));
-            }
-        }
+        hair.iter().try_for_each(HairObject::check)?;
+        meshes.iter().try_for_each(MeshObject::check)?;
         let bounds = bounds_of(&hair, &meshes);
         let center = bounds.map_or(DVec3::ZERO, |b| b.center());
         let fibres: Result<Vec<_>, _> = hair
@@ -45,10 +46,26 @@ impl Scene {
         let surfaces = meshes.iter().map(Surface::new).collect::<Result<_, _>>()?;
         let tracer = build_tracer(&hair, &meshes, center)?;
         let lights = Lights::new(environment, &lights, center);
-        Ok(Scene { tracer, fibres: fibres?, surfaces, lights, bounds, center })
+        let motions =
+            hair.iter().map(|h| &h.motion).chain(meshes.iter().flat_map(|m| [&m.motion, &m.turning]));
+        let motion_keys = motions.filter(|motion| motion.moves()).map(Motion::key_count).max();
+        Ok(Scene { tracer, fibres: fibres?, surfaces, lights, bounds, center, shutter, motion_keys })
     }
 
-    /// The box about all hair and meshes in world metres; `None` when there is nothing.
+    /// When light is let in.
+    #[must_use]
+    pub fn shutter(&self) -> &Shutter {
+        &self.shutter
+    }
+
+    /// The most keys of anything that moves while the shutter is open; `None` where nothing does.
+    #[must_use]
+    pub fn motion_keys(&self) -> Option<usize> {
+        self.motion_keys
+    }
+
+    /// The box about all hair and meshes, wherever they go while the shutter is open, in world metres; `None`
+    /// when there is nothing.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         self.bounds
@@ -111,74 +128,10 @@ impl Scene {
 }
 
 impl SceneDescription {
-    /// The box about all hair and meshes in world metres, Y up; `None` when there is nothing.
+    /// The box about all hair and meshes, wherever they go while the shutter is open, in world metres, Y up;
+    /// `None` when there is nothing.
     #[must_use]
     pub fn bounds(&self) -> Option<Bounds> {
         bounds_of(&self.hair, &self.meshes)
     }
-}
-
-/// Turns a groom's numbers into world metres, Y up.
-fn to_world(groom: &Groom, point: Vec3) -> DVec3 {
-    groom.up_axis.rotate(point, UpAxis::Y).as_dvec3() * groom.meters_per_unit
-}
-
-fn bounds_of(hair: &[HairObject], meshes: &[MeshObject]) -> Option<Bounds> {
-    let of_hair = hair.iter().filter_map(|object| {
-        Bounds::of_points(object.groom.positions().iter().map(|&p| to_world(&object.groom, p)))
-    });
-    let of_meshes =
-        meshes.iter().filter_map(|m| Bounds::of_points(m.mesh.positions.iter().map(|p| p.as_dvec3())));
-    of_hair.chain(of_meshes).reduce(Bounds::union)
-}
-
-/// Positions about the centre, in metres; the subtraction is done where it loses nothing.
-fn recentred(groom: &Groom, center: DVec3) -> Vec<Vec3> {
-    groom.positions().iter().map(|&p| (to_world(groom, p) - center).as_vec3()).collect()
-}
-
-enum OwnRadii {
-    Constant(f32),
-    PerVertex(Vec<f32>),
-}
-
-fn radii_of(groom: &Groom) -> OwnRadii {
-    let scale = |radius: f32| (f64::from(radius) * groom.meters_per_unit) as f32;
-    match groom.radii() {
-        FloatView::Constant(radius) => OwnRadii::Constant(scale(radius)),
-        FloatView::Vertex(radii) => OwnRadii::PerVertex(radii.iter().copied().map(scale).collect()),
-        FloatView::Strand(radii) => OwnRadii::PerVertex(
-            (0..groom.strand_count())
-                .flat_map(|i| std::iter::repeat_n(scale(radii[i]), groom.strand_range(i).len()))
-                .collect(),
-        ),
-    }
-}
-
-fn build_tracer(hair: &[HairObject], meshes: &[MeshObject], center: DVec3) -> Result<Tracer, RenderError> {
-    let points: Vec<Vec<Vec3>> = hair.iter().map(|object| recentred(&object.groom, center)).collect();
-    let radii: Vec<OwnRadii> = hair.iter().map(|object| radii_of(&object.groom)).collect();
-    let strands: Vec<Strands> = hair
-        .iter()
-        .zip(points.iter().zip(&radii))
-        .map(|(object, (positions, radii))| Strands {
-            offsets: object.groom.offsets(),
-            positions,
-            moved: &[],
-            radii: match radii {
-                OwnRadii::Constant(radius) => Radii::Constant(*radius),
-                OwnRadii::PerVertex(radii) => Radii::PerVertex(radii),
-            },
-        })
-        .collect();
-    let vertices: Vec<Vec<Vec3>> = meshes
-        .iter()
-        .map(|m| m.mesh.positions.iter().map(|p| (p.as_dvec3() - center).as_vec3()).collect())
-        .collect();
-    let triangles: Vec<Triangles> = meshes
-        .iter()
-        .zip(&vertices)
-        .map(|(m, positions)| Triangles { positions, indices: &m.mesh.triangles, moved: &[] })
-        .collect();
-    Ok(Tracer::build(&strands, &triangles, &BuildOptions::default())?)
 }

@@ -12,13 +12,39 @@ use crate::{MeshObject, RenderError};
 #[derive(Debug)]
 pub(crate) struct Surface {
     albedo: Vec3,
-    /// Only of a mesh with normals: those, and the vertices of its triangles to find them by.
-    smooth: Option<(Vec<Vec3>, Vec<[u32; 3]>)>,
+    /// Only of a mesh with normals.
+    smooth: Option<Smooth>,
+}
+
+/// Normals, and the vertices of the triangles to find them by.
+#[derive(Debug)]
+struct Smooth {
+    triangles: Vec<[u32; 3]>,
+    /// One a vertex, at every key of the shutter; one key where they do not turn.
+    keys: Vec<Vec<Vec3>>,
+}
+
+impl Smooth {
+    /// Of any length, even 0.
+    fn normal(&self, triangle: u32, [b, c]: [f32; 2], time: f32) -> Vec3 {
+        let vertices = self.triangles[triangle as usize];
+        let at = |key: &[Vec3]| {
+            let corners = vertices.map(|vertex| key[vertex as usize]);
+            corners[0] * (1.0 - b - c) + corners[1] * b + corners[2] * c
+        };
+        let last = self.keys.len() - 1;
+        if last == 0 {
+            return at(&self.keys[0]);
+        }
+        let place = time.clamp(0.0, 1.0) * last as f32;
+        let before = (place as usize).min(last - 1);
+        at(&self.keys[before]).lerp(at(&self.keys[before + 1]), place - before as f32)
+    }
 }
 
 impl Surface {
     pub fn new(object: &MeshObject) -> Result<Self, RenderError> {
-        let MeshObject { mesh: TriangleMesh { positions, triangles, normals }, albedo } = object;
+        let MeshObject { mesh: TriangleMesh { positions, triangles, normals }, albedo, turning, .. } = object;
         // `min_element` alone would pass over one NaN of three.
         if !(albedo.is_finite() && albedo.min_element() >= 0.0 && albedo.max_element() <= 1.0) {
             return Err(RenderError::argument("mesh albedo", albedo, "0..1"));
@@ -26,21 +52,26 @@ impl Surface {
         if normals.as_ref().is_some_and(|n| n.len() != positions.len()) {
             return Err(RenderError::argument("number of mesh normals", "another", "one normal a vertex"));
         }
-        let smooth = normals.as_ref().map(|normals| (normals.clone(), triangles.clone()));
+        turning.check("turning of normals", positions.len())?;
+        let smooth = normals.as_ref().map(|normals| Smooth {
+            triangles: triangles.clone(),
+            keys: match turning.distinct() {
+                [] => vec![normals.clone()],
+                keys => keys.to_vec(),
+            },
+        });
         Ok(Surface { albedo: *albedo, smooth })
     }
 
-    /// The surface at a hit; `toward` is the direction back along the ray.
-    pub fn at(&self, hit: &Hit, toward: Vec3) -> SurfaceHit {
-        let (HitKind::Triangle { normal, barycentrics: [b, c] }, Primitive::Triangle { triangle, .. }) =
+    /// The surface at a hit; `toward` is the direction back along the ray, `time` the ray's.
+    pub fn at(&self, hit: &Hit, toward: Vec3, time: f32) -> SurfaceHit {
+        let (HitKind::Triangle { normal, barycentrics }, Primitive::Triangle { triangle, .. }) =
             (hit.kind, hit.primitive)
         else {
             return SurfaceHit::black(toward);
         };
-        let smooth = self.smooth.as_ref().map_or(normal, |(normals, triangles)| {
-            let corners = triangles[triangle as usize].map(|vertex| normals[vertex as usize]);
-            corners[0] * (1.0 - b - c) + corners[1] * b + corners[2] * c
-        });
+        let smooth =
+            self.smooth.as_ref().map_or(normal, |smooth| smooth.normal(triangle, barycentrics, time));
         SurfaceHit::new(self.albedo, normal, smooth, toward)
     }
 }

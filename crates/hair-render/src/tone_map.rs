@@ -140,6 +140,7 @@ mod tests {
             rejected_samples: 0,
             rel_mse: None,
             relative_error: None,
+            motion: None,
         };
         Frame { width: 1, height: 1, beauty: vec![beauty], alpha: vec![alpha], passes: vec![], report }
     }

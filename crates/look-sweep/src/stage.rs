@@ -23,7 +23,7 @@ impl Stage {
     /// [`RenderError`] for a groom that cannot be traced.
     pub fn new(groom: Groom) -> Result<Stage, RenderError> {
         let scene = Scene::build(SceneDescription {
-            hair: vec![HairObject { groom: groom.clone(), material: HairMaterial::default() }],
+            hair: vec![HairObject::still(groom.clone(), HairMaterial::default())],
             // The key light keeps its place beside the camera.
             environment: Some(Environment::studio(STUDIO_WIDTH)?.rotated(VIEW[0].to_radians() as f32)),
             ..SceneDescription::default()

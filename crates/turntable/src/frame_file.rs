@@ -102,6 +102,7 @@ pub(crate) fn unmeasured((width, height): (u32, u32), beauty: Vec<Vec3>, alpha: 
         rejected_samples: 0,
         rel_mse: None,
         relative_error: None,
+        motion: None,
     };
     Frame { width, height, beauty, alpha, passes: Vec::new(), report }
 }
@@ -132,6 +133,7 @@ mod tests {
             rejected_samples: 0,
             rel_mse: Some(0.0025),
             relative_error: Some(0.05),
+            motion: None,
         };
         let frame = Frame { width: 40, height: 30, beauty: pixels, alpha, passes: vec![], report };
         let metadata = Metadata { digest: "abc".into(), ..Metadata::default() };

@@ -34,11 +34,12 @@ impl Stage {
         base: &Path,
     ) -> Result<Stage, TurntableError> {
         let fibre = material.clone().open_all(base)?;
-        let hair = vec![HairObject { groom, material: HairMaterial { fibre, ..HairMaterial::default() } }];
+        let hair = vec![HairObject::still(groom, HairMaterial { fibre, ..HairMaterial::default() })];
         let meshes = mesh.map(|source| mesh_object(source, base)).transpose()?.into_iter().collect();
         let environment = lights.environment.as_ref().map(|e| environment_of(e, base)).transpose()?;
         let lights = lights.area.iter().map(area_light).collect::<Result<_, _>>()?;
-        let description = SceneDescription { hair, meshes, environment, lights };
+        let description =
+            SceneDescription { hair, meshes, environment, lights, ..SceneDescription::default() };
         Ok(Stage { description, turning, built: None })
     }
 
@@ -79,7 +80,7 @@ fn mesh_object(source: &MeshSource, base: &Path) -> Result<MeshObject, Turntable
     if turn != Mat3::IDENTITY || unit != 1.0 {
         mesh.transform(&Affine3A::from_mat3(turn * unit));
     }
-    Ok(MeshObject { mesh, albedo: Vec3::from_array(source.albedo) })
+    Ok(MeshObject::still(mesh, Vec3::from_array(source.albedo)))
 }
 
 fn environment_of(source: &EnvironmentSource, base: &Path) -> Result<Environment, TurntableError> {

@@ -31,7 +31,7 @@ fn scene(path: &Path, sigma: Vec3) -> Scene {
         ..Default::default()
     };
     Scene::build(SceneDescription {
-        hair: vec![HairObject { groom, material }],
+        hair: vec![HairObject::still(groom, material)],
         environment: Some(Environment::constant(Vec3::ONE).unwrap()),
         ..Default::default()
     })

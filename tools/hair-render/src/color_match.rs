@@ -11,7 +11,7 @@ use crate::picture::{OnBar, say};
 
 /// The colour that the hair was given, where it is one for all strands: what is matched is one absorption.
 pub fn picked(hair: &[HairObject]) -> Result<Vec3> {
-    let HairObject { groom, material } = hair.first().context("no groom given")?;
+    let HairObject { groom, material, .. } = hair.first().context("no groom given")?;
     let fibre = &material.fibre;
     let what = match fibre.color {
         HairColor::Color(color) => match fibre.dress(groom)?.absorption {

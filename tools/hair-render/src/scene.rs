@@ -19,18 +19,18 @@ pub fn describe(args: &Args) -> Result<(SceneDescription, Vec<String>)> {
     let loaded = groom_formats::read(path, &read_options(&args.input))?;
     let mut words: Vec<String> = loaded.warnings.iter().map(|w| format!("{}: {w}", path.display())).collect();
     words.extend(loaded.repairs);
-    let hair = HairObject { groom: loaded.groom, material: material(&args.fibre)? };
+    let hair = HairObject::still(loaded.groom, material(&args.fibre)?);
     let meshes: Result<Vec<MeshObject>> = args
         .input
         .mesh
         .iter()
-        .map(|path| Ok(MeshObject { mesh: TriangleMesh::open(path)?, albedo: args.input.mesh_albedo }))
+        .map(|path| Ok(MeshObject::still(TriangleMesh::open(path)?, args.input.mesh_albedo)))
         .collect();
     let description = SceneDescription {
         hair: vec![hair],
         meshes: meshes?,
         environment: Some(environment(&args.light)?),
-        lights: Vec::new(),
+        ..SceneDescription::default()
     };
     Ok((description, words))
 }

@@ -1,9 +1,6 @@
 //! Where things are: mirrors, directions, units, far and tiny scenes.
-#![allow(clippy::unwrap_used)] // also the helpers are test code
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use glam::{DVec3, Vec3};
 use groom::{Attribute, Groom, UpAxis, names};
 use hair_render::*;
@@ -26,7 +23,7 @@ fn mirror(groom: Groom) -> HairObject {
     };
     let color = HairColor::Absorption(Vec3::ZERO);
     let fibre = Material { parameters, color, ..Default::default() };
-    HairObject { groom, material: HairMaterial { fibre, ..Default::default() } }
+    HairObject::still(groom, HairMaterial { fibre, ..Default::default() })
 }
 
 /// A fibre lit by one far, small light must glint where the law of reflection on its round surface says,

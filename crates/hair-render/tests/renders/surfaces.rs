@@ -1,17 +1,14 @@
 //! Meshes: smooth, matte and closed.
-#![allow(clippy::unwrap_used)] // also the helpers are test code
-
-mod common;
 
 use std::f32::consts::PI;
 
-use common::*;
+use crate::common::*;
 use glam::{DVec3, Vec3};
 use hair_render::*;
 use moving_mesh::TriangleMesh;
 
 /// A ball of radius 1 about the origin, of `rows` x `2 rows` facets.
-fn ball(rows: u32, smooth: bool) -> TriangleMesh {
+pub fn ball(rows: u32, smooth: bool) -> TriangleMesh {
     let columns = 2 * rows;
     let point = |i: u32| {
         let (down, around) = ((i / columns) as f32 / rows as f32 * PI, (i % columns) as f32 / columns as f32);
@@ -33,7 +30,7 @@ fn ball(rows: u32, smooth: bool) -> TriangleMesh {
 
 fn lit(mesh: TriangleMesh, albedo: f32, environment: Environment) -> Scene {
     Scene::build(SceneDescription {
-        meshes: vec![MeshObject { mesh, albedo: Vec3::splat(albedo) }],
+        meshes: vec![MeshObject::still(mesh, Vec3::splat(albedo))],
         environment: Some(environment),
         ..Default::default()
     })
@@ -63,7 +60,7 @@ fn normals_make_a_coarse_ball_round() {
     let error = |smooth| {
         let mesh = ball(10, smooth);
         let scene = Scene::build(SceneDescription {
-            meshes: vec![MeshObject { mesh, albedo: Vec3::ONE }],
+            meshes: vec![MeshObject::still(mesh, Vec3::ONE)],
             lights: vec![light],
             ..Default::default()
         })
@@ -105,7 +102,7 @@ fn smooth_surfaces_agree_however_light_is_found_and_gain_none() {
 #[test]
 fn meshes_that_cannot_be_shaded_are_refused() {
     let build = |mesh, albedo| {
-        Scene::build(SceneDescription { meshes: vec![MeshObject { mesh, albedo }], ..Default::default() })
+        Scene::build(SceneDescription { meshes: vec![MeshObject::still(mesh, albedo)], ..Default::default() })
     };
     let mut short = ball(3, true);
     short.normals.as_mut().unwrap().pop();

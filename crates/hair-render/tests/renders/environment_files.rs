@@ -1,5 +1,4 @@
 //! Environments as files: broken ones are refused, real ones shine from where they should.
-#![allow(clippy::unwrap_used)] // also the helpers are test code
 
 use std::io::Write;
 use std::path::{Path, PathBuf};

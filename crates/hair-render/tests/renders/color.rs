@@ -1,9 +1,6 @@
 //! Colour that arrives, and what else a material can say to the renderer.
-#![allow(clippy::unwrap_used)] // also the helpers are test code
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use glam::{DVec3, Vec3};
 use hair_render::*;
 
@@ -30,11 +27,11 @@ fn the_colour_that_was_picked_arrives() {
     assert_eq!(before.alpha, after.alpha);
     let absorption = HairColor::Absorption(Vec3::from_array(found.absorption));
     let studio = Environment::studio(16).unwrap();
-    let by_hand = common::scene(vec![hair(tuft(200, 0.03), absorption.clone())], Some(studio), vec![]);
+    let by_hand = crate::common::scene(vec![hair(tuft(200, 0.03), absorption.clone())], Some(studio), vec![]);
     assert_eq!(shoot(&by_hand, &camera, &settings(16, 4)).beauty, after.beauty);
 
     // Other random numbers, other pixels, under even light: the colour is there.
-    let white = common::scene(vec![hair(tuft(200, 0.03), absorption)], Some(white()), vec![]);
+    let white = crate::common::scene(vec![hair(tuft(200, 0.03), absorption)], Some(white()), vec![]);
     let seen = mean(&shoot(&white, &camera, &RenderSettings { seed: 7, ..settings(40, 128) }));
     assert!((seen - wanted.as_dvec3()).abs().max_element() < 0.012, "{seen}");
 }

@@ -1,7 +1,7 @@
 //! Small scenes and comparisons the tests share.
-#![allow(dead_code, missing_docs, clippy::unwrap_used)]
+#![allow(missing_docs)]
 
-use glam::{DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use groom::{Attribute, Groom, names};
 use hair_render::*;
 
@@ -27,10 +27,8 @@ pub fn tuft(count: u32, radius: f32) -> Groom {
 }
 
 pub fn hair(groom: Groom, color: HairColor) -> HairObject {
-    HairObject {
-        groom,
-        material: HairMaterial { fibre: Material { color, ..Default::default() }, ..Default::default() },
-    }
+    let fibre = Material { color, ..Default::default() };
+    HairObject::still(groom, HairMaterial { fibre, ..Default::default() })
 }
 
 pub fn blond() -> HairColor {
@@ -83,4 +81,22 @@ pub fn spread(scene: &Scene, settings: &RenderSettings) -> (f64, f64) {
     let mean = means.iter().sum::<f64>() / 8.0;
     let variance = means.iter().map(|m| (m - mean).powi(2)).sum::<f64>() / 7.0;
     (mean, (variance / 8.0).sqrt())
+}
+
+/// Positions turned by `turn` radians about the up axis.
+pub fn turned(positions: &[Vec3], turn: f64) -> Vec<Vec3> {
+    let turn = DMat3::from_rotation_y(turn);
+    positions.iter().map(|p| (turn * p.as_dvec3()).as_vec3()).collect()
+}
+
+/// The motion of points that turn from `-0.5 turn` to `0.5 turn` radians about the up axis.
+pub fn spin(positions: &[Vec3], turn: f64, keys: usize) -> Motion {
+    let share = |key: usize| key as f64 / (keys - 1) as f64 - 0.5;
+    Motion::keys((0..keys).map(|key| turned(positions, turn * share(key))).collect()).unwrap()
+}
+
+/// Hair that turns by `turn` radians about the up axis while the shutter is open.
+pub fn spinning(groom: Groom, color: HairColor, turn: f64, keys: usize) -> HairObject {
+    let motion = spin(groom.positions(), turn, keys);
+    HairObject { motion, ..hair(groom, color) }
 }

@@ -1,9 +1,6 @@
 //! Laws of energy and of sampling: what a render must be, whatever its noise.
-#![allow(clippy::unwrap_used)] // also the helpers are test code
 
-mod common;
-
-use common::*;
+use crate::common::*;
 use fibre_material::Field;
 use fibre_scattering::{HairParameters, Medulla, WaterFilm};
 use glam::{DVec3, Vec3};
@@ -52,7 +49,7 @@ fn every_white_fibre_vanishes_in_a_white_furnace() {
     for (name, fibre) in kinds {
         let fibre = Material { color: HairColor::Absorption(Vec3::ZERO), ..fibre };
         let material = HairMaterial { fibre, ..HairMaterial::default() };
-        let scene = scene(vec![HairObject { groom: tuft(300, 0.02), material }], Some(white()), vec![]);
+        let scene = scene(vec![HairObject::still(tuft(300, 0.02), material)], Some(white()), vec![]);
         let settings = RenderSettings {
             max_bounces: 512,
             roulette_start: 513,
@@ -75,7 +72,7 @@ fn fur_has_a_pass_for_what_its_medulla_scatters() {
     let medulla = Medulla { kappa: 0.86, sigma_s: 3.15, g: 0.79, ..Medulla::NONE };
     let fibre = Material { medulla, color: blond(), ..Material::default() };
     let material = HairMaterial { fibre, ..HairMaterial::default() };
-    let scene = scene(vec![HairObject { groom: tuft(200, 0.02), material }], Some(white()), vec![]);
+    let scene = scene(vec![HairObject::still(tuft(200, 0.02), material)], Some(white()), vec![]);
     let frame = shoot(&scene, &front(&scene), &settings(16, 8).with_aov(Aov::Scattered).with_aov(Aov::R));
     let light = |aov| frame.pass(aov).unwrap().iter().map(|p| p.element_sum()).sum::<f32>();
     assert!(light(Aov::Scattered) > light(Aov::R), "most of what this fur returns is scattered");
@@ -92,11 +89,12 @@ fn passes_add_up_to_the_beauty_and_change_nothing() {
     };
     let scene = Scene::build(SceneDescription {
         hair: vec![hair(tuft(200, 0.02), blond())],
-        meshes: vec![MeshObject { mesh: floor, albedo: Vec3::new(0.7, 0.5, 0.3) }],
+        meshes: vec![MeshObject::still(floor, Vec3::new(0.7, 0.5, 0.3))],
         environment: Some(Environment::studio(64).unwrap()),
         lights: vec![
             AreaLight::facing(DVec3::new(1.0, 4.0, 1.0), DVec3::Y, 1.0, 1.0, Vec3::splat(5.0)).unwrap(),
         ],
+        ..Default::default()
     })
     .unwrap();
     for background in [Background::Visible, Background::Transparent] {
@@ -184,7 +182,7 @@ fn a_matte_floor_gets_what_the_form_factor_says() {
     let light =
         AreaLight::facing(DVec3::Y * height, DVec3::ZERO, 1.0, 1.0, Vec3::splat(radiance as f32)).unwrap();
     let scene = Scene::build(SceneDescription {
-        meshes: vec![MeshObject { mesh: floor, albedo: Vec3::splat(albedo as f32) }],
+        meshes: vec![MeshObject::still(floor, Vec3::splat(albedo as f32))],
         lights: vec![light],
         ..Default::default()
     })

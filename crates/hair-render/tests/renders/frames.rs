@@ -1,11 +1,8 @@
 //! Frames as a whole: threads, cancelling, files.
-#![allow(clippy::unwrap_used)] // also the helpers are test code
-
-mod common;
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
-use common::*;
+use crate::common::*;
 use exr::prelude::*;
 use glam::Vec3;
 use groom::{Attribute, Domain, Values, names};
