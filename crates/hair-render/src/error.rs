@@ -80,6 +80,9 @@ pub enum RenderError {
     /// The geometry cannot be traced.
     #[error(transparent)]
     Tracing(#[from] strand_tracing::TracingError),
+    /// A mesh cannot be posed.
+    #[error(transparent)]
+    Mesh(#[from] moving_mesh::MeshError),
     /// The threads could not be started.
     #[error("cannot start {threads} threads: {reason}")]
     Threads {

@@ -4,9 +4,7 @@ use fibre_material::{Dressed, Varying};
 use fibre_scattering::Absorption;
 use groom::{Attribute, Groom, names};
 
-use crate::{
-    Aov, Background, HairObject, Motion, MovingCamera, RenderSettings, SceneDescription, Transparency,
-};
+use crate::{Aov, Background, HairObject, MovingCamera, RenderSettings, SceneDescription, Transparency};
 
 /// Something that was not loaded, built or computed.
 #[derive(Clone, Debug, PartialEq, Eq, serde::Serialize)]
@@ -51,7 +49,7 @@ impl List {
 fn motion(description: &SceneDescription, list: &mut List) {
     let hair = description.hair.iter().map(|h| ("hair", &h.motion));
     let meshes = description.meshes.iter().map(|m| ("mesh", &m.motion));
-    let moves = hair.clone().chain(meshes.clone()).any(|(_, motion)| motion.moves());
+    let moves = description.moves();
     if !moves {
         list.add("motion in the tree", "nothing moves within a frame: boxes and points are held once");
     }
@@ -65,14 +63,14 @@ fn motion(description: &SceneDescription, list: &mut List) {
     }
 }
 
-/// What is left out for a camera; to be told beside [`explain`].
+/// What is left out for a camera, beside what [`explain`] tells; `moves` is whether anything of the scene does
+/// ([`SceneDescription::moves`]).
 #[must_use]
-pub fn explain_camera(description: &SceneDescription, camera: &MovingCamera) -> Vec<LeftOut> {
+pub fn explain_camera(camera: &MovingCamera, moves: bool) -> Vec<LeftOut> {
     let mut list = List(Vec::new());
     if !camera.moves() {
         list.add("a lens for each sample", "the camera stands still: one serves all");
-        let of_meshes = description.meshes.iter().flat_map(|m| [&m.motion, &m.turning]);
-        if !description.hair.iter().map(|h| &h.motion).chain(of_meshes).any(Motion::moves) {
+        if !moves {
             list.add("times of samples", "nothing moves: all are of one moment, whatever the shutter");
         }
     }

@@ -8,6 +8,10 @@
 //! turned into it by [`Scene::build`], which also recentres everything, so that a scene a million
 //! metres from the origin renders like one at the origin.
 //!
+//! What moves while the [`Shutter`] is open says so as [`Motion`] of its [`HairObject`] or [`MeshObject`]
+//! (positions at two or more times, or velocities and accelerations), a camera as a [`MovingCamera`]. A scene in
+//! which nothing moves is built and traced as if there were no shutter.
+//!
 //! The same scene, camera and settings give the same bits, whatever the number of threads.
 //!
 //! ```
@@ -61,6 +65,7 @@ mod moving_camera;
 mod output;
 mod path;
 mod placing;
+mod posed_mesh;
 mod progress;
 mod render;
 mod sampler;
@@ -92,6 +97,7 @@ pub use motion::Motion;
 pub use motion_report::MotionReport;
 pub use moving_camera::MovingCamera;
 pub use output::check_output;
+pub use posed_mesh::MeshTimes;
 pub use progress::{Progress, Silent};
 pub use render::{render, render_moving};
 pub use scene::Scene;

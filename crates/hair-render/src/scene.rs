@@ -46,9 +46,7 @@ impl Scene {
         let surfaces = meshes.iter().map(Surface::new).collect::<Result<_, _>>()?;
         let tracer = build_tracer(&hair, &meshes, center)?;
         let lights = Lights::new(environment, &lights, center);
-        let motions =
-            hair.iter().map(|h| &h.motion).chain(meshes.iter().flat_map(|m| [&m.motion, &m.turning]));
-        let motion_keys = motions.filter(|motion| motion.moves()).map(Motion::key_count).max();
+        let motion_keys = motions(&hair, &meshes).map(Motion::key_count).max();
         Ok(Scene { tracer, fibres: fibres?, surfaces, lights, bounds, center, shutter, motion_keys })
     }
 
@@ -127,7 +125,19 @@ impl Scene {
     }
 }
 
+/// All motion that moves anything.
+fn motions<'a>(hair: &'a [HairObject], meshes: &'a [MeshObject]) -> impl Iterator<Item = &'a Motion> {
+    let of_meshes = meshes.iter().flat_map(|mesh| [&mesh.motion, &mesh.turning]);
+    hair.iter().map(|hair| &hair.motion).chain(of_meshes).filter(|motion| motion.moves())
+}
+
 impl SceneDescription {
+    /// Whether anything of it moves while the shutter is open.
+    #[must_use]
+    pub fn moves(&self) -> bool {
+        motions(&self.hair, &self.meshes).next().is_some()
+    }
+
     /// The box about all hair and meshes, wherever they go while the shutter is open, in world metres, Y up;
     /// `None` when there is nothing.
     #[must_use]

@@ -9,6 +9,8 @@ use fibre_material::Material;
 use glam::{DVec3, Vec3};
 use hair_render::{Aov, AovSet};
 
+use crate::motion_args::MotionArgs;
+
 /// Path-traces a groom to a multi-layer EXR: beauty, alpha and a pass for every lobe.
 ///
 /// Prints the estimated relative error and the seconds on stderr. World space is Y up, in metres;
@@ -19,7 +21,7 @@ use hair_render::{Aov, AovSet};
     override_usage = "hair-render [OPTIONS] --output <FILE> <GROOM>\n       hair-render --write-studio <FILE>\n       hair-render --list-presets"
 )]
 pub struct Args {
-    /// The groom: .hair, .txt, .gltf, .glb, .usda
+    /// The groom: .hair, .txt, .usda, .usdc, .usdz, .abc, .gltf, .glb, .ply and others; .usd* and .abc may move
     #[arg(required_unless_present_any = ["write_studio", "list_presets"])]
     pub groom: Option<PathBuf>,
 
@@ -53,6 +55,8 @@ pub struct Args {
     pub fibre: Fibre,
     #[command(flatten)]
     pub input: Input,
+    #[command(flatten)]
+    pub motion: MotionArgs,
 
     /// Write the built-in studio environment (.exr) and do nothing else
     #[arg(long, value_name = "FILE", conflicts_with_all = ["groom", "output"])]
@@ -113,7 +117,7 @@ pub struct Light {
     pub background: bool,
 }
 
-#[derive(Debug, clap::Args)]
+#[derive(Clone, Copy, Debug, clap::Args)]
 #[command(next_help_heading = "View")]
 pub struct View {
     /// Pixels across
@@ -193,7 +197,8 @@ pub struct Fibre {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Input")]
 pub struct Input {
-    /// A matte mesh beside the hair (.obj, .gltf, .glb), Y up, in metres; may be repeated
+    /// A matte mesh beside the hair (.obj, .gltf, .glb, .usd*; name.####.obj for a sequence), Y up and in metres
+    /// where it does not say; may be repeated
     #[arg(long, value_name = "FILE")]
     pub mesh: Vec<PathBuf>,
     /// What the meshes reflect: one number or r,g,b

@@ -2,6 +2,9 @@
 
 mod args;
 mod color_match;
+mod meshes;
+mod motion_args;
+mod moving_groom;
 mod picture;
 mod presets;
 mod scene;

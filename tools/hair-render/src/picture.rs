@@ -7,11 +7,13 @@ use anyhow::{Context, Result};
 use command_line::{Bar, Outcome};
 use glam::{DVec3, Vec3};
 use hair_render::{
-    Aov, AovSet, Backdrop, Background, Camera, ColorMatch, Frame, FrameReport, Metadata, Precision, Progress,
-    RenderError, RenderSettings, Scene, SceneDescription, TableUse, ToneMapping, check_output, tone_map,
+    Aov, AovSet, Backdrop, Background, Camera, ColorMatch, Frame, FrameReport, LeftOut, Metadata,
+    MovingCamera, Precision, Progress, RenderError, RenderSettings, Scene, SceneDescription, TableUse,
+    ToneMapping, check_output, tone_map,
 };
 
 use crate::args::Args;
+use crate::scene::{Described, Moment};
 use crate::{color_match, scene};
 
 /// Shows tiles on a bar and stops on Ctrl-C.
@@ -42,32 +44,42 @@ pub fn render(args: &Args) -> Result<Outcome> {
     settings.check()?;
     check_output(output, "exr")?;
     args.png.as_deref().map_or(Ok(()), |png| check_output(png, "png"))?;
-    let (mut description, words) = scene::describe(args)?;
+    let Described { mut description, words, moment } = scene::describe(args)?;
     words.iter().for_each(|word| say(&format!("warning: {word}")));
     let target = args.view.look_at.map_or_else(|| middle(&description), |at| at.vector());
     description.lights = scene::lights(&args.light, target)?;
     settings.aovs = args.quality.aovs.unwrap_or_else(|| usual_passes(&description));
     let picked = if args.fibre.match_color { Some(color_match::picked(&description.hair)?) } else { None };
     if args.explain {
-        for left in hair_render::explain(&description, &settings) {
-            say(&format!("left out: {}: {}", left.what, left.why));
-        }
+        leave_out(&hair_render::explain(&description, &settings));
     }
+    let moves = description.moves();
     let mut scene = Scene::build(description)?;
     tables(&scene, args.explain);
-    let camera = scene::camera(&args.view, &scene)?;
+    let camera = scene::camera(&args.view, &args.motion, &scene)?;
+    if args.explain {
+        leave_out(&hair_render::explain_camera(&camera, moves));
+    }
     command_line::on_interrupt_ask();
     let color_match = match picked {
-        Some(color) => match color_match::run(color, &mut scene, &camera, &settings)? {
+        Some(color) => match color_match::run(color, &mut scene, &camera.at(0.5), &settings)? {
             Some(found) => Some(found),
             None => return Ok(Outcome::Interrupted),
         },
         None => None,
     };
     let Some(frame) = trace(&scene, &camera, &settings)? else { return Ok(Outcome::Interrupted) };
-    write(args, output, camera, &frame)?;
-    report(args, &frame, &scene, color_match, output)?;
+    write(args, output, camera.at(0.5), moment, &frame)?;
+    let blur = frame.report.motion.is_some().then(|| Blurred::of(&scene));
+    let moment = (moment.frame.is_some() || blur.is_some()).then_some(moment);
+    report(args, &frame, &scene, Extra { color_match, moment, blur }, output)?;
     Ok(Outcome::Good)
+}
+
+fn leave_out(left_out: &[LeftOut]) {
+    for left in left_out {
+        say(&format!("left out: {}: {}", left.what, left.why));
+    }
 }
 
 /// Tells where the medulla tables came from, if that was asked for, and what was wrong with their cache.
@@ -94,9 +106,9 @@ fn usual_passes(description: &SceneDescription) -> AovSet {
 }
 
 /// The frame; `None` when Ctrl-C stopped it.
-fn trace(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Option<Frame>> {
+fn trace(scene: &Scene, camera: &MovingCamera, settings: &RenderSettings) -> Result<Option<Frame>> {
     let bar = OnBar(command_line::progress_bar(1, "rendering"));
-    let result = hair_render::render(scene, camera, settings, &bar);
+    let result = hair_render::render_moving(scene, camera, settings, &bar);
     bar.0.finish();
     match result {
         Err(RenderError::Cancelled) => Ok(None),
@@ -104,11 +116,16 @@ fn trace(scene: &Scene, camera: &Camera, settings: &RenderSettings) -> Result<Op
     }
 }
 
-fn write(args: &Args, output: &Path, camera: Camera, frame: &Frame) -> Result<()> {
+fn write(args: &Args, output: &Path, camera: Camera, moment: Moment, frame: &Frame) -> Result<()> {
+    let blurred = frame.report.motion.is_some();
+    let named = moment.frame.map(|number| ("frame".to_owned(), number.to_string()));
     let metadata = Metadata {
         command: command_line::words(),
         camera: Some(camera),
         precision: if args.quality.half { Precision::Half } else { Precision::Float },
+        frame_rate: (blurred || named.is_some()).then_some(moment.frame_rate),
+        exposure_seconds: blurred.then_some(moment.exposure_seconds),
+        extra: named.into_iter().collect(),
         ..Metadata::default()
     };
     frame.write_exr(output, &metadata)?;
@@ -149,15 +166,37 @@ struct Report<'a> {
     color_match: Option<ColorMatch>,
     #[serde(skip_serializing_if = "Vec::is_empty")]
     medulla_tables: Vec<TableUse>,
+    #[serde(flatten)]
+    moment: Option<Moment>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    blur: Option<Blurred>,
 }
 
-fn report(
-    args: &Args,
-    frame: &Frame,
-    scene: &Scene,
+/// What is told beside the frame.
+struct Extra {
     color_match: Option<ColorMatch>,
-    output: &Path,
-) -> Result<()> {
+    moment: Option<Moment>,
+    blur: Option<Blurred>,
+}
+
+/// What the motion of a scene costs.
+#[derive(serde::Serialize)]
+struct Blurred {
+    /// Bytes of geometry and tree.
+    scene_bytes: usize,
+    /// Seconds the tree took to build.
+    build_seconds: f64,
+}
+
+impl Blurred {
+    fn of(scene: &Scene) -> Self {
+        let statistics = scene.tracing_statistics();
+        Blurred { scene_bytes: statistics.bytes, build_seconds: statistics.build_seconds }
+    }
+}
+
+fn report(args: &Args, frame: &Frame, scene: &Scene, extra: Extra, output: &Path) -> Result<()> {
+    let Extra { color_match, moment, blur } = extra;
     let report = &frame.report;
     let error = match report.relative_error {
         Some(error) => format!("estimated relative error {:.2} %", 100.0 * error),
@@ -172,6 +211,8 @@ fn report(
             frame: report,
             color_match,
             medulla_tables: scene.medulla_tables().cloned().collect(),
+            moment,
+            blur,
         })?;
         json.push('\n');
         std::io::stdout().lock().write_all(json.as_bytes())?;

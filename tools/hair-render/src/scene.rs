@@ -1,38 +1,71 @@
 //! From arguments to a scene and a camera.
 
+use std::path::PathBuf;
+
 use anyhow::{Context, Result, ensure};
 use fibre_scattering::HairParameters;
 use glam::{DVec3, Vec3};
 use groom::UpAxis;
-use groom_formats::ReadOptions;
+use groom_formats::{Loaded, ReadOptions};
 use hair_render::{
-    AreaLight, Camera, Environment, HairColor, HairMaterial, HairObject, Material, MeshObject, Scene,
+    AreaLight, Camera, Environment, HairColor, HairMaterial, HairObject, Material, MovingCamera, Scene,
     SceneDescription, Transparency,
 };
-use moving_mesh::TriangleMesh;
+use moving_mesh::MovingMesh;
 
 use crate::args::{Args, Fibre, Input, Light, Up, View};
+use crate::meshes::When;
+use crate::motion_args::MotionArgs;
+use crate::{meshes, moving_groom};
 
-/// Reads everything the scene is made of; what is odd about the files comes along in words.
-pub fn describe(args: &Args) -> Result<(SceneDescription, Vec<String>)> {
+/// What the arguments describe.
+pub struct Described {
+    pub description: SceneDescription,
+    /// What is odd about the files.
+    pub words: Vec<String>,
+    /// What the picture is of, in time.
+    pub moment: Moment,
+}
+
+/// When a picture was taken.
+#[derive(Clone, Copy, Debug, serde::Serialize)]
+pub struct Moment {
+    /// The frame; none where nobody named one and the groom has none.
+    pub frame: Option<f64>,
+    /// Frames a second.
+    pub frame_rate: f64,
+    /// How long the shutter was open, in seconds.
+    pub exposure_seconds: f64,
+}
+
+/// Reads everything the scene is made of.
+pub fn describe(args: &Args) -> Result<Described> {
     let path = args.groom.as_deref().context("no groom given")?;
-    let loaded = groom_formats::read(path, &read_options(&args.input))?;
-    let mut words: Vec<String> = loaded.warnings.iter().map(|w| format!("{}: {w}", path.display())).collect();
-    words.extend(loaded.repairs);
-    let hair = HairObject::still(loaded.groom, material(&args.fibre)?);
-    let meshes: Result<Vec<MeshObject>> = args
-        .input
-        .mesh
-        .iter()
-        .map(|path| Ok(MeshObject::still(TriangleMesh::open(path)?, args.input.mesh_albedo)))
-        .collect();
+    let motion_args = &args.motion;
+    let shutter = motion_args.shutter()?;
+    let read = moving_groom::read(path, read_options(&args.input), motion_args)?;
+    let mut words: Vec<String> =
+        read.loaded.warnings.iter().map(|w| format!("{}: {w}", path.display())).collect();
+    words.extend(read.loaded.repairs.iter().cloned());
+    let when = When { frame: read.frame, shutter: &shutter, keys: read.keys(motion_args) };
+    let open = |path: &PathBuf| meshes::open(path, args, &when, read.frame_rate());
+    let meshes: Vec<MovingMesh> = args.input.mesh.iter().map(open).collect::<Result<_>>()?;
+    let frame_rate = moving_groom::rate(motion_args, &read, meshes.iter().find_map(MovingMesh::frame_rate));
+    let motion = read.motion(path, motion_args, &shutter, frame_rate)?;
+    let pose = |mesh| meshes::pose(mesh, args, &when, frame_rate);
+    let meshes = meshes.iter().map(pose).collect::<Result<_>>()?;
+    let [open, close] = shutter.seconds(frame_rate)?;
+    let moment = Moment { frame: read.frame, frame_rate, exposure_seconds: close - open };
+    let Loaded { groom, origin, .. } = read.loaded;
+    let hair = HairObject { origin, motion, ..HairObject::still(groom, material(&args.fibre)?) };
     let description = SceneDescription {
         hair: vec![hair],
-        meshes: meshes?,
+        meshes,
         environment: Some(environment(&args.light)?),
-        ..SceneDescription::default()
+        lights: Vec::new(),
+        shutter,
     };
-    Ok((description, words))
+    Ok(Described { description, words, moment })
 }
 
 /// The square lights, which face `target`.
@@ -45,8 +78,33 @@ pub fn lights(light: &Light, target: DVec3) -> Result<Vec<AreaLight>> {
     light.area_light.iter().map(|numbers| square(numbers.0)).collect()
 }
 
-/// The camera that the view asks for, about the scene's bounds where it leaves things open.
-pub fn camera(view: &View, scene: &Scene) -> Result<Camera> {
+/// The camera that the view asks for, about the scene's bounds where it leaves things open, and its way while
+/// the shutter is open.
+pub fn camera(view: &View, motion: &MotionArgs, scene: &Scene) -> Result<MovingCamera> {
+    let opening = still_camera(view, scene)?;
+    let Some(option) = motion.camera_moves() else { return Ok(opening.into()) };
+    ensure!(motion.blurs(), "--blur off leaves nothing for {option} to move");
+    let closing = View {
+        azimuth: motion.azimuth_to.unwrap_or(view.azimuth),
+        elevation: motion.elevation_to.unwrap_or(view.elevation),
+        distance: motion.distance_to.or(view.distance),
+        fov: motion.fov_to.unwrap_or(view.fov),
+        look_at: motion.look_at_to.or(view.look_at),
+        from: motion.from_to.or(view.from),
+        ..*view
+    };
+    // A camera that was not told how far away it is stays as far as at the opening, also where it zooms.
+    let closing = match (closing.distance, closing.from) {
+        (None, None) => {
+            let distance = (opening.position() - opening.target()).length();
+            View { distance: Some(distance), ..closing }
+        }
+        _ => closing,
+    };
+    Ok(MovingCamera::new(vec![opening, still_camera(&closing, scene)?])?)
+}
+
+fn still_camera(view: &View, scene: &Scene) -> Result<Camera> {
     let fov = view.fov.to_radians();
     let (azimuth, elevation) = (view.azimuth.to_radians(), view.elevation.to_radians());
     let aspect = f64::from(view.width) / f64::from(view.height.max(1));

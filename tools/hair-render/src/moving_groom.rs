@@ -1,0 +1,149 @@
+//! A groom at one frame, and how it moves while the shutter is open.
+
+use std::path::Path;
+
+use anyhow::{Context, Result, bail};
+use glam::{DVec3, Vec3};
+use groom::{Domain, Groom, Values, names};
+use groom_formats::{Format, Loaded, MovingGroom, ReadOptions};
+use hair_render::{Motion, Shutter};
+
+use crate::motion_args::{Blur, MotionArgs};
+
+/// Frames a second where nobody says.
+const USUAL_RATE: f64 = 24.0;
+
+/// A groom as it was read.
+pub struct Read {
+    pub loaded: Loaded,
+    /// Of a format that holds motion.
+    motion: Option<MovingGroom>,
+    /// The frame that is shown; none of a still groom when nobody named one.
+    pub frame: Option<f64>,
+    /// What it can be blurred by.
+    has: Has,
+}
+
+/// What moves, as a file tells it at one frame.
+#[derive(Default)]
+struct Has {
+    times: usize,
+    velocities: Option<Vec<Vec3>>,
+    accelerations: Option<Vec<Vec3>>,
+}
+
+/// Reads the groom at the frame that the arguments name.
+pub fn read(path: &Path, options: ReadOptions, args: &MotionArgs) -> Result<Read> {
+    if let Some(frame) = args.frame.filter(|frame| !frame.is_finite()) {
+        bail!("--frame is {frame}, expected a finite number");
+    }
+    let options = ReadOptions { time: args.frame, keep_origin: true, ..options };
+    if !holds_motion(path) {
+        let loaded = groom_formats::read(path, &options)?;
+        let has = Has { velocities: velocities(&loaded.groom), ..Has::default() };
+        return Ok(Read { loaded, motion: None, frame: args.frame, has });
+    }
+    let motion = groom_formats::read_moving(path, &options)?;
+    let loaded = motion.still().clone();
+    let frame = args.frame.or_else(|| loaded.times.first().copied());
+    let mut has =
+        Has { times: loaded.times.len(), velocities: velocities(&loaded.groom), accelerations: None };
+    if let Some(frame) = frame.filter(|_| has.times > 0) {
+        let at = motion.at(frame)?;
+        has.velocities = at.velocities.or(has.velocities);
+        has.accelerations = at.accelerations;
+    }
+    Ok(Read { loaded, motion: Some(motion), frame, has })
+}
+
+impl Read {
+    fn blur(&self, args: &MotionArgs) -> Blur {
+        args.blur.unwrap_or_else(|| self.has.best())
+    }
+
+    /// At how many times through the shutter things are looked at: the groom and what stands beside it alike, or
+    /// they would come apart between them.
+    pub fn keys(&self, args: &MotionArgs) -> usize {
+        let usual = if self.blur(args) == Blur::Accelerations { 3 } else { 2 };
+        args.motion_samples.map_or(usual, usize::from)
+    }
+
+    /// How the strands move while the shutter is open.
+    pub fn motion(&self, path: &Path, args: &MotionArgs, shutter: &Shutter, rate: f64) -> Result<Motion> {
+        let positions = self.loaded.groom.positions();
+        let seconds = shutter.seconds(rate)?;
+        let keys = self.keys(args);
+        let Has { velocities, accelerations, .. } = &self.has;
+        match self.blur(args) {
+            Blur::Off => Ok(Motion::STILL),
+            Blur::Positions => match (&self.motion, self.frame) {
+                (Some(motion), Some(frame)) if self.has.times > 1 => {
+                    let times = shutter.key_times(frame, keys)?;
+                    let at = |time: f64| Ok(motion.at(time)?.positions);
+                    Ok(Motion::keys(times.into_iter().map(at).collect::<Result<_>>()?)?)
+                }
+                _ => self.lacks(path, "positions", "positions at different times"),
+            },
+            Blur::Velocities => match velocities {
+                Some(velocities) => Ok(Motion::velocities(positions, velocities, seconds)?),
+                None => self.lacks(path, "velocities", "velocities"),
+            },
+            Blur::Accelerations => match (velocities, accelerations) {
+                (Some(velocities), Some(accelerations)) => {
+                    Ok(Motion::accelerations(positions, velocities, accelerations, seconds, keys)?)
+                }
+                _ => self.lacks(path, "accelerations", "velocities and accelerations"),
+            },
+        }
+    }
+
+    /// Frames a second, as the groom says.
+    pub fn frame_rate(&self) -> Option<f64> {
+        self.loaded.frame_rate
+    }
+
+    fn lacks(&self, path: &Path, blur: &str, what: &str) -> Result<Motion> {
+        let best = match self.has.best() {
+            Blur::Off => "off: nothing in it moves (.usda, .usdc, .usdz and .abc hold motion)".to_owned(),
+            Blur::Positions => "positions".to_owned(),
+            Blur::Velocities if self.has.times > 1 => "velocities or positions".to_owned(),
+            Blur::Velocities => "velocities".to_owned(),
+            Blur::Accelerations => "accelerations, velocities or positions".to_owned(),
+        };
+        bail!("--blur {blur}: {} has no {what}; expected {best}", path.display())
+    }
+}
+
+impl Has {
+    fn best(&self) -> Blur {
+        match (&self.velocities, &self.accelerations) {
+            (Some(_), Some(_)) => Blur::Accelerations,
+            (Some(_), None) => Blur::Velocities,
+            _ if self.times > 1 => Blur::Positions,
+            _ => Blur::Off,
+        }
+    }
+}
+
+/// The rate that holds for the picture.
+pub fn rate(args: &MotionArgs, groom: &Read, meshes: Option<f64>) -> f64 {
+    args.fps.or(groom.frame_rate()).or(meshes).unwrap_or(USUAL_RATE)
+}
+
+fn holds_motion(path: &Path) -> bool {
+    matches!(Format::from_path(path), Some(Format::Usda | Format::Usdc | Format::Usdz | Format::Alembic))
+}
+
+/// The velocities of a groom whose format has a place for them, one a point.
+fn velocities(groom: &Groom) -> Option<Vec<Vec3>> {
+    let attribute = groom.attribute(names::VELOCITY)?;
+    let Values::Vec3(values) = &attribute.values else { return None };
+    match attribute.domain {
+        Domain::Vertex => Some(values.clone()),
+        Domain::Groom => Some(vec![*values.first()?; groom.point_count()]),
+        Domain::Strand => {
+            let each = |strand: usize| std::iter::repeat_n(values[strand], groom.strand_range(strand).len());
+            Some((0..groom.strand_count()).flat_map(each).collect())
+        }
+    }
+}
