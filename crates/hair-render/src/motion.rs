@@ -96,6 +96,16 @@ impl Motion {
         self.keys.windows(2).any(|pair| pair[0] != pair[1])
     }
 
+    /// Where a point is at `time`, 0 at opening and 1 at closing; `None` for a point without motion.
+    #[must_use]
+    pub fn at(&self, point: usize, time: f64) -> Option<DVec3> {
+        let last = self.keys.len().checked_sub(1)?;
+        let place = time.clamp(0.0, 1.0) * last as f64;
+        let before = (place as usize).min(last.saturating_sub(1));
+        let at = |key: usize| Some(self.keys.get(key)?.get(point)?.as_dvec3());
+        Some(at(before)?.lerp(at((before + 1).min(last))?, place - before as f64))
+    }
+
     /// How many keys there are; 0 where nothing was said.
     #[must_use]
     pub fn key_count(&self) -> usize {

@@ -2,8 +2,8 @@
 
 use std::path::Path;
 
-use anyhow::{Context, Result, bail};
-use glam::{DVec3, Vec3};
+use anyhow::{Result, bail};
+use glam::Vec3;
 use groom::{Domain, Groom, Values, names};
 use groom_formats::{Format, Loaded, MovingGroom, ReadOptions};
 use hair_render::{Motion, Shutter};

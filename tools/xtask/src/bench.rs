@@ -17,6 +17,7 @@ const BENCHES: [(&str, &str); 11] = [
     ("strand-tracing", "motion"),
     ("groom-binding", "carry"),
     ("hair-render-cli", "straight_hair"),
+    ("hair-render-cli", "motion_samples"),
 ];
 
 /// Runs all of them in a release build.

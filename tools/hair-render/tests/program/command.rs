@@ -1,38 +1,9 @@
-//! The program as a shell meets it: exit codes, streams, and what it leaves on the disk.
-#![allow(clippy::unwrap_used)] // also the helpers are test code
+//! Exit codes, streams, and what it leaves on the disk.
 
 use std::io::{BufRead, BufReader};
-use std::path::{Path, PathBuf};
-use std::process::{Command, Output, Stdio};
+use std::process::{Command, Stdio};
 
-fn sample(name: &str) -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../../samples").join(name)
-}
-
-/// An empty folder of its own for each test.
-fn folder(test: &str) -> PathBuf {
-    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
-    let _ = std::fs::remove_dir_all(&folder);
-    std::fs::create_dir_all(&folder).unwrap();
-    folder
-}
-
-fn command(folder: &Path, arguments: &[&str]) -> Command {
-    let mut command = Command::new(env!("CARGO_BIN_EXE_hair-render"));
-    command.current_dir(folder).arg(sample("straight.hair")).args(arguments);
-    command
-}
-
-fn run(folder: &Path, arguments: &[&str]) -> Output {
-    command(folder, arguments).output().unwrap()
-}
-
-fn names(folder: &Path) -> Vec<String> {
-    let entries = std::fs::read_dir(folder).unwrap();
-    let mut names: Vec<_> = entries.map(|e| e.unwrap().file_name().to_string_lossy().into_owned()).collect();
-    names.sort();
-    names
-}
+use crate::support::*;
 
 #[test]
 fn a_picture_its_preview_and_nothing_but_json_on_stdout() {
@@ -80,9 +51,6 @@ fn materials_come_from_files_and_presets() {
     let list = Command::new(env!("CARGO_BIN_EXE_hair-render")).arg("--list-presets").output().unwrap();
     assert!(String::from_utf8(list.stdout).unwrap().contains("fur-kappa-0.86: Yan et al. 2017"));
 }
-
-/// So many samples that a test which waited for them would not end.
-const FOREVER: [&str; 2] = ["--spp", "4000000"];
 
 #[test]
 fn what_cannot_be_written_is_refused_before_rendering() {

@@ -1,0 +1,7 @@
+//! The program as a shell meets it.
+
+#![allow(clippy::unwrap_used)] // tests fail by panicking
+
+mod command;
+mod motion;
+mod support;
