@@ -1,7 +1,9 @@
 //! Rays a second at random times through a ball of hair that spins in the shutter: the tree whose boxes move,
-//! beside the same rays through a tree whose boxes hold every key, and through still hair.
+//! beside the same rays through a tree whose boxes hold every key (with the same packs), and beside as many
+//! through still hair.
 //!
-//! `BENCH_STRANDS` (10000) sets the size of the ball, `BENCH_ONLY` ("45 3") picks a row; all timings of a row are taken in turns, the best counts.
+//! `BENCH_STRANDS` (10000) sets the size of the ball, `BENCH_ONLY` ("45 3") picks a row; all timings of a row
+//! are taken in turns, the best counts.
 #![allow(missing_docs, dead_code, unused_imports, clippy::print_stdout, clippy::unwrap_used)]
 
 use std::hint::black_box;
@@ -56,6 +58,8 @@ mod search;
 mod shares;
 #[path = "../src/slabs.rs"]
 mod slabs;
+#[path = "../src/stray.rs"]
+mod stray;
 #[path = "../src/tracks.rs"]
 mod tracks;
 #[path = "../src/triangle.rs"]

@@ -65,6 +65,7 @@ mod query;
 mod search;
 mod shares;
 mod slabs;
+mod stray;
 mod tracer;
 mod tracks;
 mod triangle;

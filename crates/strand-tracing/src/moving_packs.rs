@@ -77,7 +77,7 @@ impl MovingPacks {
     /// Beside what [`Sight`] needs. A point's coordinate is at most `e M` from the exact mix of two keys, `M`
     /// being the greatest magnitude of any coordinate and `e = 2^-24`. The mix found here is off by `e M` for
     /// the two shares, `e M` for the two products and `e M` for their sum. That is `4e M` in each of three
-    /// axes, less than `7e M` together; no more than either end is off, the line's distance from the segment is.
+    /// axes, less than `7e M` together, and the line's distance from a segment is no more off than its ends.
     pub(crate) fn sight(&self, ray: &Ray) -> Sight {
         let (low, high) = (self.bounds.0.as_dvec3(), self.bounds.1.as_dvec3());
         let largest = low.abs().max(high.abs()).max_element();
@@ -142,7 +142,8 @@ mod tests {
                 .collect();
             let moved: Vec<&[Vec3]> = keys[1..].iter().map(|key| key.as_slice()).collect();
             let radii = [radius, radius * thin];
-            let strands = Strands { offsets: &[0, 2], positions: &keys[0], radii: Radii::PerVertex(&radii), moved: &moved };
+            let radii = Radii::PerVertex(&radii);
+            let strands = Strands { offsets: &[0, 2], positions: &keys[0], radii, moved: &moved };
             let fibres = Fibres::gather(&[strands]).unwrap();
             let moment = Moment { fibres: &fibres, meshes: &Meshes::default(), time: f64::from(time) };
             let Some((a, b)) = moment.ends(0) else { return Ok(()) };

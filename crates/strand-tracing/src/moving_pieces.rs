@@ -9,6 +9,7 @@ use glam::{DVec3, Vec3, Vec4, Vec4Swizzles};
 use crate::fibres::Fibres;
 use crate::pieces::{self, Piece};
 use crate::pose::{Moment, Pose};
+use crate::stray;
 use crate::tracks::{Between, Track};
 
 /// A stretch of a segment.
@@ -69,7 +70,7 @@ impl<'a> MovingPieces<'a> {
 
     /// The ends of a piece at a key of the tree, with radii.
     pub(crate) fn ends(&self, piece: &MovingPiece, key: usize) -> (Vec4, Vec4) {
-        let [a, b] = self.centres(piece, self.time(key));
+        let [a, b] = self.exact(piece, key as f64 / self.intervals as f64).map(|end| end.as_vec3());
         let Some((first, last)) = self.fibres.ends(piece.number) else { return (Vec4::ZERO, Vec4::ZERO) };
         let (ra, rb) = (f64::from(first.w.abs()), f64::from(last.w.abs()));
         let radius = |part: u16| match part {
@@ -83,15 +84,6 @@ impl<'a> MovingPieces<'a> {
         (a.extend(radius(piece.part)), b.extend(radius(piece.part + 1)))
     }
 
-    fn time(&self, key: usize) -> f64 {
-        key as f64 / self.intervals as f64
-    }
-
-    /// The ends as the tree keeps them.
-    fn centres(&self, piece: &MovingPiece, time: f64) -> [Vec3; 2] {
-        self.exact(piece, time).map(|end| end.as_vec3())
-    }
-
     /// The ends, not rounded.
     fn exact(&self, piece: &MovingPiece, time: f64) -> [DVec3; 2] {
         let Some((a, b)) = self.fibres.ends(piece.number) else { return [DVec3::ZERO; 2] };
@@ -103,23 +95,13 @@ impl<'a> MovingPieces<'a> {
         })
     }
 
-    /// The difference of two paths of straight stretches is greatest where one of them has a corner.
     fn stray(&self, piece: &MovingPiece) -> f64 {
-        let Some(track) = self.fibres.tracks().of(piece.number) else { return 0.0 };
-        if track.intervals() == self.intervals && piece.count == 1 {
-            return 0.0;
+        match self.fibres.tracks().of(piece.number) {
+            Some(track) if track.intervals() != self.intervals || piece.count > 1 => {
+                stray::greatest(track.intervals(), self.intervals, |time| self.exact(piece, time))
+            }
+            _ => 0.0,
         }
-        let corners = |intervals: usize| (0..=intervals).map(move |key| key as f64 / intervals as f64);
-        let strayed = corners(track.intervals()).chain(corners(self.intervals)).map(|time| {
-            let Between { before, share } = Between::of(time, self.intervals);
-            let (low, high) = (self.time(before), self.time(before + 1));
-            let (low, high) = (self.centres(piece, low), self.centres(piece, high));
-            let exact = self.exact(piece, time);
-            let gap =
-                |end: usize| (low[end].as_dvec3().lerp(high[end].as_dvec3(), share) - exact[end]).length();
-            gap(0).max(gap(1))
-        });
-        strayed.fold(0.0, f64::max)
     }
 }
 

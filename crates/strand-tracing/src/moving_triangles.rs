@@ -5,6 +5,7 @@ use obvhs::aabb::Aabb;
 
 use crate::bounds;
 use crate::meshes::Meshes;
+use crate::stray;
 use crate::tracks::{Between, Track};
 
 /// All triangles that move, for a tree of so many intervals; see [`moving_pieces`](crate::moving_pieces).
@@ -69,17 +70,6 @@ impl<'a> MovingTriangles<'a> {
         if track.intervals() == self.intervals {
             return 0.0;
         }
-        let corners = |intervals: usize| (0..=intervals).map(move |key| key as f64 / intervals as f64);
-        let strayed = corners(track.intervals()).chain(corners(self.intervals)).map(|time| {
-            let Between { before, share } = Between::of(time, self.intervals);
-            let kept = |key: usize| {
-                self.corners(track, number, key as f64 / self.intervals as f64)
-                    .map(|c| c.as_vec3().as_dvec3())
-            };
-            let (low, high) = (kept(before), kept(before + 1));
-            let exact = self.corners(track, number, time);
-            (0..3).map(|i| (low[i].lerp(high[i], share) - exact[i]).length()).fold(0.0, f64::max)
-        });
-        strayed.fold(0.0, f64::max)
+        stray::greatest(track.intervals(), self.intervals, |time| self.corners(track, number, time))
     }
 }

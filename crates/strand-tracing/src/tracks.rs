@@ -63,8 +63,8 @@ impl<T: Copy> Tracks<T> {
     pub(crate) fn of(&self, number: u32) -> Option<&Track<T>> {
         let after = self.tracks.partition_point(|track| track.first <= number);
         let track = self.tracks.get(after.checked_sub(1)?)?;
-        let len = track.keys.first().map_or(0, Vec::len);
-        ((number - track.first) as usize).lt(&len).then_some(track)
+        let count = track.keys.first().map_or(0, Vec::len);
+        ((number - track.first) < count as u32).then_some(track)
     }
 
     /// Of how many intervals every track is.

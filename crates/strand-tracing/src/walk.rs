@@ -25,7 +25,8 @@ pub(crate) trait Nodes {
 }
 
 /// Calls `visit(leaf, far)` for every leaf whose box is crossed at `far` or before, nearest boxes first
-/// where `ORDERED`, otherwise leaves as soon as they are found. `visit` may bring `far` nearer; it ends the walk by returning true.
+/// where `ORDERED`, otherwise leaves as soon as they are found. `visit` may bring `far` nearer; it ends the
+/// walk by returning true.
 #[inline(always)]
 pub(crate) fn walk<const ORDERED: bool>(
     nodes: &impl Nodes,

@@ -292,7 +292,8 @@ fn keys_that_do_not_fit_are_named() {
 }
 
 fn number() -> impl Strategy<Value = f32> {
-    prop_oneof![6 => -2.0_f32..2.0, 1 => Just(0.0_f32), 1 => any::<f32>().prop_filter("finite", |x| x.is_finite())]
+    let any = any::<f32>().prop_filter("finite", |x| x.is_finite());
+    prop_oneof![6 => -2.0_f32..2.0, 1 => Just(0.0_f32), 1 => any]
 }
 
 fn place() -> impl Strategy<Value = Vec3> {
@@ -313,7 +314,8 @@ proptest! {
         let key = |key: usize| points.iter().map(|p| p[key]).collect::<Vec<Vec3>>();
         let keys: Vec<Vec<Vec3>> = (0..keys).map(key).collect();
         let count = points.len() as u32;
-        let hair = Hair { offsets: vec![0, count], positions: keys[0].clone(), radii: vec![radius; points.len()] };
+        let radii = vec![radius; points.len()];
+        let hair = Hair { offsets: vec![0, count], positions: keys[0].clone(), radii };
         let indices = (2..count).map(|i| [i - 2, i - 1, i]).collect();
         let scene = Scene { hair, hair_keys: keys.clone(), indices, mesh_keys: keys.clone() };
         let moving = scene.moving();
