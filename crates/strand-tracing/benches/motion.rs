@@ -80,8 +80,11 @@ use shares::Shares;
 use walk::walk;
 use wide_tree::WideTree;
 
-const ROUNDS: usize = 5;
-/// The tree of boxes of all keys is so slow that it gets only every so manieth ray.
+/// Timings of every run, of which the best counts.
+const ROUNDS: usize = 8;
+/// Rays of a run.
+const RUN: usize = 256;
+/// The tree whose boxes hold all keys is so slow that it gets only every so manieth run.
 const NAIVE: usize = 16;
 const SEGMENTS: u32 = 24;
 
@@ -212,14 +215,31 @@ fn bounces(rays: &[Ray], tracer: &Tracer, random: &mut Random) -> Vec<(Ray, Opti
 
 type Asked = (Ray, Option<Primitive>);
 
-/// Millions of rays a second: primary, bounces, any hit of the bounces.
-fn rates(rays: [&[Asked]; 2], closest: impl Fn(&Asked) -> bool, any: impl Fn(&Asked) -> bool) -> [f64; 3] {
-    let rate = |rays: &[Asked], what: &dyn Fn(&Asked) -> bool| {
-        let start = Instant::now();
-        black_box(rays.iter().filter(|asked| what(asked)).count());
-        rays.len() as f64 / start.elapsed().as_secs_f64() / 1e6
-    };
-    [rate(rays[0], &closest), rate(rays[1], &closest), rate(rays[1], &any)]
+/// One kind of question asked of many rays, timed in short runs: on a busy machine the best time of a short run
+/// is found sooner than that of a long one.
+struct Timed<'a> {
+    rays: &'a [Asked],
+    ask: &'a dyn Fn(&Asked) -> bool,
+    best: Vec<f64>,
+}
+
+impl<'a> Timed<'a> {
+    fn new(rays: &'a [Asked], ask: &'a dyn Fn(&Asked) -> bool) -> Self {
+        Self { rays, ask, best: vec![f64::INFINITY; rays.len().div_ceil(RUN)] }
+    }
+
+    fn round(&mut self) {
+        for (run, best) in self.rays.chunks(RUN).zip(&mut self.best) {
+            let start = Instant::now();
+            black_box(run.iter().filter(|asked| (self.ask)(asked)).count());
+            *best = best.min(start.elapsed().as_secs_f64());
+        }
+    }
+
+    /// Millions of rays a second.
+    fn rate(&self) -> f64 {
+        self.rays.len() as f64 / self.best.iter().sum::<f64>() / 1e6
+    }
 }
 
 fn main() {
@@ -272,41 +292,39 @@ fn row(hair: &Hair, still: &Tracer, primary: &[Ray], bytes: usize, degrees: f32,
         let pose = Moment { fibres: &fibres, meshes: &meshes, time: f64::from(ray.time) };
         Query::new(pose, ray, *left)
     };
-    let some = |rays: &[Asked]| rays.iter().step_by(NAIVE).copied().collect::<Vec<_>>();
+    let some = |rays: &[Asked]| rays.chunks(RUN).step_by(NAIVE).flatten().copied().collect::<Vec<_>>();
     let (few_first, few_second) = (some(&primary), some(&secondary));
-    let mut best = [[0.0_f64; 3]; 3];
+    let still_closest = |(ray, left): &Asked| still.closest(ray, *left).is_some();
+    let still_any = |(ray, left): &Asked| still.occluded(ray, *left);
+    let moving_closest = |(ray, left): &Asked| moving.closest(ray, *left).is_some();
+    let moving_any = |(ray, left): &Asked| moving.occluded(ray, *left);
+    let naive_closest = |asked: &Asked| {
+        let query = naive(asked);
+        let mut nearest = Nearest::new(&asked.0);
+        nearest.search(&around, &query, &asked.0);
+        nearest.describe(&query, &asked.0).is_some()
+    };
+    let naive_any = |asked: &Asked| search::any(&around, &naive(asked), &asked.0);
+    let mut timed = [
+        Timed::new(&primary, &still_closest),
+        Timed::new(&still_secondary, &still_closest),
+        Timed::new(&still_secondary, &still_any),
+        Timed::new(&primary, &moving_closest),
+        Timed::new(&secondary, &moving_closest),
+        Timed::new(&secondary, &moving_any),
+        Timed::new(&few_first, &naive_closest),
+        Timed::new(&few_second, &naive_closest),
+        Timed::new(&few_second, &naive_any),
+    ];
     for _ in 0..ROUNDS {
-        let found = [
-            rates(
-                [&primary, &still_secondary],
-                |(ray, left)| still.closest(ray, *left).is_some(),
-                |(ray, left)| still.occluded(ray, *left),
-            ),
-            rates(
-                [&primary, &secondary],
-                |(ray, left)| moving.closest(ray, *left).is_some(),
-                |(ray, left)| moving.occluded(ray, *left),
-            ),
-            rates(
-                [&few_first, &few_second],
-                |asked| {
-                    let query = naive(asked);
-                    let mut nearest = Nearest::new(&asked.0);
-                    nearest.search(&around, &query, &asked.0);
-                    nearest.describe(&query, &asked.0).is_some()
-                },
-                |asked| search::any(&around, &naive(asked), &asked.0),
-            ),
-        ];
-        for (best, found) in best.iter_mut().zip(found) {
-            *best = std::array::from_fn(|k| best[k].max(found[k]));
-        }
+        timed.iter_mut().for_each(Timed::round);
     }
     for (ray, left) in &few_second {
         let found = search::any(&around, &naive(&(*ray, *left)), ray);
         assert_eq!(found, moving.occluded(ray, *left), "the two trees find the same");
     }
-    let [of_still, of_moving, of_naive] = best;
+    let [of_still, of_moving, of_naive] =
+        [0, 3, 6].map(|first| [0, 1, 2].map(|kind: usize| timed[first + kind].rate()));
     let statistics = moving.statistics();
     let ratios =
         |a: [f64; 3], b: [f64; 3]| format!("{:.2} {:.2} {:.2}", a[0] / b[0], a[1] / b[1], a[2] / b[2]);
