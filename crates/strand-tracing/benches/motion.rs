@@ -254,7 +254,8 @@ fn main() {
     let bytes = still.statistics().bytes;
     for degrees in [0.0, 5.0, 45.0] {
         for keys in [2, 3, 5, 9] {
-            if degrees == 0.0 && keys != 2 || !format!("{degrees} {keys}").contains(&only) {
+            let wanted = only.is_empty() || only == format!("{degrees} {keys}");
+            if degrees == 0.0 && keys != 2 || !wanted {
                 continue;
             }
             row(&hair, &still, &primary, bytes, degrees, keys);

@@ -93,12 +93,13 @@ impl Pose for Moment<'_> {
         let (a, b) = self.fibres.ends(number)?;
         let Some(track) = self.fibres.tracks().of(number) else { return Some((a, b)) };
         let between = Between::of(self.time, track.intervals());
-        let mix = |number: u32, point: Vec4| {
-            let first = point.xyz();
-            let key = |key| track.at(number, key, first);
-            between.mix(key(between.before), key(between.before + 1)).extend(point.w)
+        let before = match between.before.checked_sub(1) {
+            Some(key) => track.pair(number, key)?,
+            None => [a.xyz(), b.xyz()],
         };
-        Some((mix(number, a), mix(number + 1, b)))
+        let after = track.pair(number, between.before)?;
+        let mix = |end: usize, point: Vec4| between.mix(before[end], after[end]).extend(point.w);
+        Some((mix(0, a), mix(1, b)))
     }
 
     #[inline]

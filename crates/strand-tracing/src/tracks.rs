@@ -93,6 +93,16 @@ impl<T: Copy> Track<T> {
             None => first,
         }
     }
+
+    /// The values of a number and of the next, `key` counting from the second one.
+    #[inline]
+    pub(crate) fn pair(&self, number: u32, key: usize) -> Option<[T; 2]> {
+        let place = (number - self.first) as usize;
+        match self.keys.get(key)?.get(place..place + 2) {
+            Some(&[here, next]) => Some([here, next]),
+            _ => None,
+        }
+    }
 }
 
 #[cfg(test)]
