@@ -4,12 +4,16 @@ use glam::DVec3;
 use groom::{Attribute, Domain, Groom, Values, names, random};
 
 use crate::scatter::{self, Root};
+use crate::thickness::{PROBES, thickness};
 use crate::trigonometry::{cos, sin};
 use crate::tufts::Tufts;
 use crate::{FurOptions, FurSurface, SampleError, dress};
 
 /// Strands that share a tuft, about.
 const TUFT: usize = 24;
+
+/// A body this many strand lengths thick carries its fur at full length.
+const THICK: f64 = 4.0;
 
 /// How many times over the strands would cover the skin, laid flat side by side.
 const COVER: f64 = 3.0;
@@ -43,14 +47,19 @@ pub fn fur_on(surface: &FurSurface<'_>, options: &FurOptions) -> Result<Groom, S
     let spacing = (area / centres.len().max(1) as f64).sqrt();
     let tufts = Tufts::new(&centres, 1.5 * spacing);
     // Tufts draw their chances from ids no strand has.
-    let tuft_paths: Vec<Vec<DVec3>> =
-        centres.iter().enumerate().map(|(i, root)| coat.path(root, u32::MAX - i as u32, 1.0)).collect();
+    let shares = thin_places(surface, &centres, &coat);
+    let tuft_paths: Vec<Vec<DVec3>> = (0..)
+        .zip(centres.iter().zip(&shares))
+        .map(|(i, (root, &share))| coat.path(root, u32::MAX - i, share))
+        .collect();
 
     let mut positions = Vec::with_capacity(roots.len() * options.points as usize);
     for (id, root) in (0..).zip(&roots) {
-        let mut path = coat.path(root, id, coat.share(id));
-        if let Some(tuft) = tufts.closest(root) {
-            coat.gather(&mut path, &tuft_paths[tuft]);
+        let tuft = tufts.closest(root);
+        let share = coat.share(id) * tuft.map_or(1.0, |tuft| shares[tuft]);
+        let mut path = coat.path(root, id, share);
+        if let Some(tuft) = tuft {
+            coat.gather(&mut path, &tuft_paths[tuft], share);
         }
         positions.extend(path.iter().map(|point| point.as_vec3()));
     }
@@ -65,6 +74,31 @@ pub fn fur_on(surface: &FurSurface<'_>, options: &FurOptions) -> Result<Groom, S
         dress::color(&mut groom, options.seed)?;
     }
     Ok(groom)
+}
+
+/// What part of its length the fur of each tuft has: less where the body is thin.
+fn thin_places(surface: &FurSurface<'_>, centres: &[Root], coat: &Coat<'_>) -> Vec<f64> {
+    let part = f64::from(coat.options.thin);
+    if part == 0.0 {
+        return vec![1.0; centres.len()];
+    }
+    let probes: Vec<Root> = centres.iter().step_by(centres.len().div_ceil(PROBES).max(1)).copied().collect();
+    let thickness = thickness(surface, &probes);
+    // The probes are as evenly spread as the tufts; each tuft takes the nearest three, so that no edge shows.
+    let share = |root: &Root| {
+        let mut nearest = [(f64::INFINITY, 1.0); 3];
+        for (probe, &thickness) in probes.iter().zip(&thickness) {
+            let facing = if probe.normal.dot(root.normal) > 0.0 { 1.0 } else { 16.0 };
+            let found = (probe.place.distance_squared(root.place) * facing, thickness);
+            if found.0 < nearest[2].0 {
+                nearest[2] = found;
+                nearest.sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+            }
+        }
+        let room = |&(_, thickness): &(f64, f64)| (thickness / (THICK * coat.length)).min(1.0);
+        1.0 - part * (1.0 - nearest.iter().map(room).sum::<f64>() / 3.0)
+    };
+    centres.iter().map(share).collect()
 }
 
 /// What all strands of a coat share.
@@ -90,7 +124,7 @@ impl Coat<'_> {
         let along = towards - normal * towards.dot(normal);
         let side = normal.any_orthonormal_vector();
         let other = normal.cross(side);
-        let stray = (side * (chance("fur x") - 0.5) + other * (chance("fur y") - 0.5)) * 0.25;
+        let stray = (side * (chance("fur x") - 0.5) + other * (chance("fur y") - 0.5)) * 0.16;
         let lean = f64::from(self.options.lean) * (0.9 + 0.2 * chance("fur lean")).min(1.0);
 
         let segments = self.options.points - 1;
@@ -112,12 +146,15 @@ impl Coat<'_> {
         points
     }
 
-    /// Bends a strand to its tuft, the more the nearer to the tip.
-    fn gather(&self, path: &mut [DVec3], tuft: &[DVec3]) {
+    /// Bends a strand to its tuft, the more the nearer to the tip; less to one that is farther than the strand reaches.
+    fn gather(&self, path: &mut [DVec3], tuft: &[DVec3], share: f64) {
+        let (Some(root), Some(middle)) = (path.first(), tuft.first()) else { return };
+        let reach = (0.5 * self.length * share / root.distance(*middle).max(f64::MIN_POSITIVE)).min(1.0);
+        let clump = f64::from(self.options.clump) * reach;
         let last = (path.len().max(2) - 1) as f64;
         for (i, (point, middle)) in path.iter_mut().zip(tuft).enumerate() {
             let t = i as f64 / last;
-            *point = point.lerp(*middle, f64::from(self.options.clump) * t * t);
+            *point = point.lerp(*middle, clump * t * t);
         }
     }
 }

@@ -29,6 +29,8 @@ pub struct FurOptions {
     pub length: f32,
     /// How much shorter than that the shortest may be: 0 all alike, 1 down to nothing.
     pub variation: f32,
+    /// How much shorter fur is where the body is thin, as on ears, legs and noses: 0 not at all, 1 in proportion.
+    pub thin: f32,
     /// 0 stands up from the skin, 1 lies along it at the tip.
     pub lean: f32,
     /// Where the fur lies to: a direction in the surface's space, laid onto the skin at every root. The default
@@ -50,6 +52,7 @@ impl Default for FurOptions {
             seed: 1,
             length: 0.03,
             variation: 0.4,
+            thin: 0.8,
             lean: 0.8,
             towards: Vec3::new(0.0, -0.5, -1.0),
             curl: 0.02,
@@ -77,9 +80,13 @@ impl FurOptions {
         if !(self.length > 0.0 && self.length <= 1.0) {
             return number("length", self.length.to_string(), "over 0, up to 1 of the surface's diagonal");
         }
-        for (what, value) in
-            [("variation", self.variation), ("lean", self.lean), ("curl", self.curl), ("clump", self.clump)]
-        {
+        for (what, value) in [
+            ("variation", self.variation),
+            ("thin", self.thin),
+            ("lean", self.lean),
+            ("curl", self.curl),
+            ("clump", self.clump),
+        ] {
             if !(0.0..=1.0).contains(&value) {
                 return number(what, value.to_string(), "0 to 1");
             }

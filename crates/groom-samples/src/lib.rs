@@ -23,6 +23,7 @@ mod mesh;
 mod nodding_head;
 mod options;
 mod scatter;
+mod thickness;
 mod trigonometry;
 mod tufts;
 

@@ -35,7 +35,8 @@ impl<'a> Tufts<'a> {
         let [x, y, z] = self.cell_of(root.place);
         let mut best: Option<(f64, u32)> = None;
         for (dx, dy, dz) in (0..27).map(|i| (i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1)) {
-            let Some(members) = self.cells.get(&[x + dx, y + dy, z + dz]) else { continue };
+            let cell = [x.saturating_add(dx), y.saturating_add(dy), z.saturating_add(dz)];
+            let Some(members) = self.cells.get(&cell) else { continue };
             for &i in members {
                 let other = &self.roots[i as usize];
                 let distance = other.place.distance_squared(root.place);

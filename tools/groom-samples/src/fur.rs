@@ -6,7 +6,7 @@ use anyhow::Context;
 use clap::Args;
 use glam::Vec3;
 use groom_samples::{FurOptions, FurSurface, fur_on};
-use moving_mesh::TriangleMesh;
+use moving_mesh::{MeshOptions, MovingMesh};
 
 use crate::arrays::Arrays;
 use crate::hair_file;
@@ -14,7 +14,7 @@ use crate::hair_file;
 /// Fur in the mesh's own unit and with its axes: bind and render it with that mesh as it is.
 #[derive(Args)]
 pub struct FurArgs {
-    /// The mesh to grow on (.obj, .gltf or .glb), in its rest pose
+    /// The mesh to grow on, in its rest pose: .obj, .gltf or .glb
     #[arg(long, value_name = "FILE")]
     mesh: PathBuf,
     /// How many strands (1 to 16777216)
@@ -29,6 +29,9 @@ pub struct FurArgs {
     /// How much shorter the shortest may be (0 to 1)
     #[arg(long, value_name = "PART", default_value_t = FurOptions::default().variation)]
     variation: f32,
+    /// How much shorter fur is where the body is thin (0 to 1)
+    #[arg(long, value_name = "PART", default_value_t = FurOptions::default().thin)]
+    thin: f32,
     /// How far the fur leans: 0 stands up, 1 lies on the skin
     #[arg(long, value_name = "PART", default_value_t = FurOptions::default().lean)]
     lean: f32,
@@ -54,16 +57,20 @@ pub struct FurArgs {
 
 /// Grows the fur and writes it.
 pub fn make(args: &FurArgs) -> anyhow::Result<()> {
-    let mesh = TriangleMesh::open(&args.mesh)?;
-    let positions: Vec<_> = mesh.positions.iter().map(|p| p.as_dvec3()).collect();
-    let surface =
-        FurSurface { positions: &positions, triangles: &mesh.triangles, normals: mesh.normals.as_deref() };
+    let mesh = MovingMesh::open(&args.mesh, &MeshOptions::default())?;
+    let rest = mesh.rest();
+    let surface = FurSurface {
+        positions: &rest.positions,
+        triangles: mesh.triangles(),
+        normals: rest.normals.as_deref(),
+    };
     let options = FurOptions {
         strands: args.strands,
         points: args.points,
         seed: args.seed,
         length: args.length,
         variation: args.variation,
+        thin: args.thin,
         lean: args.lean,
         towards: args.towards,
         curl: args.curl,
