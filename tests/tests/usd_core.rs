@@ -150,7 +150,7 @@ fn baking_and_packaging_fail_aloud_and_leave_the_old_file() {
     let folder = inputs();
     let [moving, broken, baked, package] =
         ["moving.usda", "broken.usda", "out.usda", "out.usdz"].map(|name| folder.path().join(name));
-    let halves = BakeOptions { step: Some(0.5), frames: Some((1.0, 2.0)) };
+    let halves = BakeOptions { step: Some(0.5), frames: Some((1.0, 2.0)), ..BakeOptions::default() };
     usd.bake(&moving, &baked, halves).unwrap();
     assert_eq!(read(&baked, &ReadOptions::default()).unwrap().times, [1.0, 1.5, 2.0]);
     usd.package(&baked, &package).unwrap();

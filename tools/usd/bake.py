@@ -2,7 +2,9 @@
 """Bakes an animated stage to one plain layer: meshes and curves, their points in the stage's space at every step.
 
 Composition is flattened, transforms are applied, UsdSkel skinning and blend shapes are evaluated. What does not
-move is written once. Exit 0: done. 2: could not.
+move is written once; a skinned prim has the pose it was bound in as its value outside the samples. With
+--transforms points stay in the prim's own space, below one matrix in float64: a character that is far away keeps
+its shape. Exit 0: done. 2: could not.
 """
 
 import argparse
@@ -64,15 +66,59 @@ def bake_skinning(stage, times, step):
     return baked
 
 
-def world_points(prim, cache, time):
-    """Points in the stage's space, as float32, and the matrix that brought them there."""
+def bind_poses(stage):
+    """Points of each skinned prim as they were bound, and the matrix to the stage's space, by path."""
+    poses, worlds = {}, UsdGeom.XformCache()
+    for root in [prim for prim in stage.Traverse() if prim.IsA(UsdSkel.Root)]:
+        cache = UsdSkel.Cache()
+        cache.Populate(UsdSkel.Root(root), Usd.PrimDefaultPredicate)
+        for binding in cache.ComputeSkelBindings(UsdSkel.Root(root), Usd.PrimDefaultPredicate):
+            world = np.array(worlds.GetLocalToWorldTransform(binding.GetSkeleton().GetPrim()))
+            for query in binding.GetSkinningTargets():
+                prim = query.GetPrim()
+                # Blend shapes alone leave a prim where it is.
+                skinned = query.HasJointInfluences()
+                to_stage = np.array(query.GetGeomBindTransform()) @ world if skinned else np.array(
+                    worlds.GetLocalToWorldTransform(prim))
+                points = UsdGeom.PointBased(prim).GetPointsAttr().Get(Usd.TimeCode.EarliestTime())
+                if points is not None:
+                    poses[str(prim.GetPath())] = np.asarray(points, np.float32).reshape(-1, 3), to_stage
+    return poses
+
+
+def local_points(prim, cache, time):
+    """Points in the prim's own space, as float32, and the matrix to the stage's."""
     cache.SetTime(time)
     points = UsdGeom.PointBased(prim).GetPointsAttr().Get(time)
     points = np.asarray(points if points is not None else [], np.float32).reshape(-1, 3)
-    world = np.array(cache.GetLocalToWorldTransform(prim))
+    return points, np.array(cache.GetLocalToWorldTransform(prim))
+
+
+def moved(points, world):
+    """Points brought along by a matrix, as float32."""
     if np.array_equal(world, np.eye(4)):
-        return points, world
-    return (points.astype(np.float64) @ world[:3, :3] + world[3, :3]).astype(np.float32), world
+        return points
+    return (points.astype(np.float64) @ world[:3, :3] + world[3, :3]).astype(np.float32)
+
+
+def normals_of(prim, time):
+    """The primvar or attribute of a mesh's normals and their values, indices looked up; or nothing."""
+    primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar("normals")
+    if primvar and primvar.HasValue():
+        return primvar.GetInterpolation(), primvar.ComputeFlattened(time)
+    mesh = UsdGeom.Mesh(prim)
+    return mesh.GetNormalsInterpolation(), mesh.GetNormalsAttr().Get(time)
+
+
+def turned(normals, world):
+    """Normals brought along by a matrix, of length 1, as float32."""
+    normals = np.asarray(normals, np.float64).reshape(-1, 3)
+    x, y, z = world[:3, :3]
+    # The inverse transpose but for a factor; also for a matrix that flattens.
+    cofactors = np.stack([np.cross(y, z), np.cross(z, x), np.cross(x, y)])
+    normals = normals @ (cofactors if np.dot(x, cofactors[0]) >= 0 else -cofactors)
+    lengths = np.linalg.norm(normals, axis=1, keepdims=True)
+    return np.divide(normals, lengths, out=np.zeros_like(normals), where=lengths > 0).astype(np.float32)
 
 
 def copy_still(prim, to, kind, time, world):
@@ -89,10 +135,14 @@ def copy_still(prim, to, kind, time, world):
             curves = UsdGeom.Curves(to)
             curves.CreateWidthsAttr(Vt.FloatArray.FromNumpy((np.asarray(widths) * scale).astype(np.float32)))
             curves.SetWidthsInterpolation(UsdGeom.Curves(prim).GetWidthsInterpolation())
+    if kind == "Mesh":
+        for subset in UsdGeom.Subset.GetGeomSubsets(UsdGeom.Imageable(prim), UsdGeom.Tokens.face, "materialBind"):
+            name, indices = subset.GetPrim().GetName(), subset.GetIndicesAttr().Get(time)
+            UsdGeom.Subset.CreateGeomSubset(UsdGeom.Imageable(to), name, UsdGeom.Tokens.face, indices, "materialBind")
     api = UsdGeom.PrimvarsAPI(to)
     for primvar in UsdGeom.PrimvarsAPI(prim).GetPrimvarsWithValues():
         name = primvar.GetPrimvarName()
-        if name.startswith("skel:"):
+        if name.startswith("skel:") or name == "normals":
             continue
         copied = api.CreatePrimvar(name, primvar.GetTypeName(), primvar.GetInterpolation(), primvar.GetElementSize())
         copied.Set(primvar.ComputeFlattened(time) if primvar.IsIndexed() else primvar.Get(time))
@@ -110,48 +160,90 @@ def check_topology(prim, kind, times):
                 raise BakeError(f"{prim.GetPath()}.{name} changes at time {time:g}; expected the same points at all times")
 
 
-def bake_prim(prim, out, kind, times, cache):
-    """Bakes one prim; how many points it has."""
+class Track:
+    """An attribute at rising times, written from where it first changes."""
+
+    def __init__(self, make, write):
+        self.make, self.write = make, write
+        self.attribute, self.first, self.times = None, None, []
+
+    def put(self, value, time):
+        """The value at the next time."""
+        if self.first is None:
+            self.first = value
+        moves = self.attribute is not None
+        if not moves and not np.array_equal(value, self.first):
+            # Up to here it stood still: the first and the last of these times say so.
+            moves, self.attribute = True, self.make()
+            for before in dict.fromkeys((self.times[0], self.times[-1])):
+                self.write(self.attribute, self.first, before)
+        if moves:
+            self.write(self.attribute, value, time)
+        self.times.append(time)
+
+    def rest(self, value):
+        """The value outside the samples: `value`, or what it was all the time."""
+        if self.first is None or value is None and self.attribute:
+            return
+        value = self.first if value is None else value
+        if not self.attribute:
+            self.attribute = self.make()
+            if not np.array_equal(value, self.first):
+                self.write(self.attribute, self.first, self.times[0])
+        self.write(self.attribute, value, Usd.TimeCode.Default())
+
+
+def vectors(attribute, value, time):
+    attribute.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(value)), time)
+
+
+def bake_prim(prim, out, kind, times, cache, bind=None, transforms=False):
+    """Bakes one prim, which was bound as `bind` says; how many points it has."""
     check_topology(prim, kind, times)
     to = out.DefinePrim(prim.GetPath(), kind)
-    first, world = world_points(prim, cache, times[0])
-    copy_still(prim, to, kind, times[0], world)
+    first, world = local_points(prim, cache, times[0])
+    copy_still(prim, to, kind, times[0], np.eye(4) if transforms else world)
     target = UsdGeom.PointBased(to)
     widths = UsdGeom.Curves(to).GetWidthsAttr().Get() if kind == "BasisCurves" else None
     half = float(np.max(widths)) / 2 if widths else 0.0
-    points_attribute, extent_attribute = target.CreatePointsAttr(), target.CreateExtentAttr()
+    extent_attribute = target.CreateExtentAttr()
 
-    def put(points, time):
-        points_attribute.Set(Vt.Vec3fArray.FromNumpy(np.ascontiguousarray(points)), time)
+    def put_points(attribute, points, time):
+        vectors(attribute, points, time)
         if len(points):
             extent = np.stack([points.min(axis=0) - half, points.max(axis=0) + half]).astype(np.float32)
             extent_attribute.Set(Vt.Vec3fArray.FromNumpy(extent), time)
 
-    moves = False
-    for time in times[1:]:
-        points, _ = world_points(prim, cache, time)
+    points_track = Track(target.CreatePointsAttr, put_points)
+    normals_track = Track(target.CreateNormalsAttr, vectors)
+    matrix_track = Track(
+        lambda: UsdGeom.Xformable(to).AddTransformOp().GetAttr(),
+        lambda attribute, matrix, time: attribute.Set(Gf.Matrix4d(*matrix.flatten().tolist()), time),
+    )
+    for time in times:
+        points, world = local_points(prim, cache, time)
         if len(points) != len(first):
             message = f"{len(points)} points at time {time:g}, but {len(first)} at {times[0]:g}"
             raise BakeError(f"{prim.GetPath()}.points: {message}; expected the same points at all times")
-        if not moves and np.array_equal(points, first):
-            continue
-        if not moves:
-            # Up to here it stood still: the first and the last of these times say so.
-            moves = True
-            put(first, times[0])
-            before = times[times.index(time) - 1]
-            if before != times[0]:
-                put(first, before)
-        put(points, time)
-    if not moves:
-        put(first, Usd.TimeCode.Default())
+        points_track.put(points if transforms else moved(points, world), time)
+        if transforms:
+            matrix_track.put(world, time)
+        interpolation, normals = normals_of(prim, time) if kind == "Mesh" else (None, None)
+        if normals:
+            target.SetNormalsInterpolation(interpolation)
+            normals_track.put(turned(normals, np.eye(4) if transforms else world), time)
+    bound, to_stage = bind or (None, None)
+    points_track.rest(bound if bound is None or transforms else moved(bound, to_stage))
+    matrix_track.rest(to_stage)
+    normals_track.rest(None)
     return len(first)
 
 
-def bake(source, target, frames=None, step=1.0):
+def bake(source, target, frames=None, step=1.0, transforms=False):
     """Bakes the stage `source` to the layer `target`; the number of prims and of times."""
     stage = Usd.Stage.Open(source)
     times = frame_times(stage, frames, step)
+    bound = bind_poses(stage)
     skinned = bake_skinning(stage, times, step)
     out = Usd.Stage.CreateNew(target)
     UsdGeom.SetStageUpAxis(out, UsdGeom.GetStageUpAxis(stage))
@@ -164,7 +256,7 @@ def bake(source, target, frames=None, step=1.0):
         kind = next((kind for kind in TOPOLOGY if prim.GetTypeName() == kind), None)
         if kind is None or UsdGeom.Imageable(prim).ComputePurpose() == UsdGeom.Tokens.guide:
             continue
-        bake_prim(prim, out, kind, times, cache)
+        bake_prim(prim, out, kind, times, cache, bound.get(str(prim.GetPath())), transforms)
         count += 1
     if not count:
         raise BakeError(f"{source}: no Mesh and no BasisCurves prim")
@@ -186,13 +278,14 @@ def main(arguments=None):
     parser.add_argument("target", metavar="OUT", help=".usda, .usdc or .usd")
     parser.add_argument("--frames", metavar="A:B", type=frame_range, help="time codes (default: the stage's range)")
     parser.add_argument("--step", metavar="S", type=float, default=1.0, help="time codes from one to the next (default: 1)")
+    parser.add_argument("--transforms", action="store_true", help="keep points in the prims' own spaces (see above)")
     options = parser.parse_args(arguments)
     if not options.target.endswith(ENDINGS):
         print(f"error: {options.target}: expected one of {', '.join(ENDINGS)}", file=sys.stderr)
         return 2
     try:
         with whole_file(options.target) as temporary:
-            prims, times = bake(options.source, temporary, options.frames, options.step)
+            prims, times = bake(options.source, temporary, options.frames, options.step, options.transforms)
     except (BakeError, Tf.ErrorException, OSError) as error:
         print(f"error: {options.source}: {error}", file=sys.stderr)
         return 2

@@ -3,6 +3,8 @@
 use std::io;
 use std::path::PathBuf;
 
+use usd_core::UsdCoreError;
+
 /// A mesh that could not be read.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -45,6 +47,14 @@ pub enum MeshError {
         /// What there is.
         known: String,
     },
+    /// The file needs OpenUSD's own package, which is not there or did not do it.
+    #[error("{}: USD composition and skinning are evaluated by usd-core: {source}", path.display())]
+    UsdCore {
+        /// The file.
+        path: PathBuf,
+        /// What usd-core said, or how to install it.
+        source: UsdCoreError,
+    },
     /// A number given to this crate is out of its range.
     #[error("{name} {value}: expected {range}")]
     Parameter {
@@ -64,11 +74,20 @@ pub(crate) enum Fault {
     Unsupported { what: String, remedy: &'static str },
     Io { path: PathBuf, source: io::Error },
     NoAnimation { asked: String, known: String },
+    UsdCore(UsdCoreError),
 }
 
 impl Fault {
     pub(crate) fn invalid(place: impl Into<String>, fault: impl Into<String>) -> Self {
         Fault::Invalid { place: place.into(), fault: fault.into() }
+    }
+
+    /// The same fault at a place that is found below `above`.
+    pub(crate) fn below(self, above: &str) -> Self {
+        match self {
+            Fault::Invalid { place, fault } => Fault::Invalid { place: format!("{above}: {place}"), fault },
+            other => other,
+        }
     }
 
     pub(crate) fn in_file(self, path: &std::path::Path) -> MeshError {
@@ -77,6 +96,7 @@ impl Fault {
             Fault::Invalid { place, fault } => MeshError::Invalid { path, place, fault },
             Fault::Unsupported { what, remedy } => MeshError::Unsupported { path, what, remedy },
             Fault::Io { path, source } => MeshError::Io { path, source },
+            Fault::UsdCore(source) => MeshError::UsdCore { path, source },
             Fault::NoAnimation { asked, known } => MeshError::NoAnimation { path, asked, known },
         }
     }

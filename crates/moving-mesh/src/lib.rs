@@ -1,4 +1,4 @@
-//! Triangle meshes that move, for grooms to grow on and to shade: OBJ and glTF.
+//! Triangle meshes that move, for grooms to grow on and to shade: OBJ, glTF and USD.
 //!
 //! ```no_run
 //! use moving_mesh::{MeshOptions, MovingMesh};
@@ -16,14 +16,17 @@ mod error;
 mod gltf_file;
 mod loaded;
 mod moving_mesh;
+mod normals;
 mod obj_file;
 mod options;
 mod part;
 mod pose;
+mod recent;
 mod shape;
 mod skeleton;
 mod texture;
 mod triangle_mesh;
+mod usd_file;
 
 pub use error::MeshError;
 pub use moving_mesh::MovingMesh;

@@ -1,8 +1,10 @@
 //! What a reader of a format hands over.
 
+use crate::error::Fault;
 use crate::gltf_file::Rig;
 use crate::shape::Shape;
-use crate::{Animation, MeshError, Pose, RestPose};
+use crate::usd_file::Film;
+use crate::{Animation, Pose, RestPose};
 
 /// A mesh file, read.
 #[derive(Debug)]
@@ -40,13 +42,15 @@ impl Default for Motion {
 pub(crate) enum Source {
     Still(Pose),
     Gltf(Box<Rig>),
+    Usd(Box<Film>),
 }
 
 impl Source {
-    pub(crate) fn pose_into(&self, at: RestPose, pose: &mut Pose) -> Result<(), MeshError> {
+    pub(crate) fn pose_into(&self, at: RestPose, pose: &mut Pose) -> Result<(), Fault> {
         match self {
             Source::Still(still) => pose.clone_from(still),
             Source::Gltf(rig) => rig.pose_into(at, pose),
+            Source::Usd(film) => film.pose_into(at.time(), pose)?,
         }
         Ok(())
     }

@@ -9,6 +9,7 @@ use crate::loaded::{Loaded, Motion, Source};
 use crate::shape::Shape;
 use crate::{
     Animation, MeshError, MeshOptions, Part, Pose, RestPose, Skeleton, TriangleMesh, gltf_file, obj_file,
+    usd_file,
 };
 
 /// Triangles that stay the same, and where their vertices are at any time.
@@ -25,7 +26,7 @@ pub struct MovingMesh {
 }
 
 impl MovingMesh {
-    /// Reads `.obj`, `.gltf` or `.glb`, told apart by the ending; all meshes of the file become one.
+    /// Reads `.obj`, `.gltf`, `.glb`, `.usd`, `.usda`, `.usdc` or `.usdz`, told apart by the ending; all meshes of the file become one.
     ///
     /// # Errors
     /// [`MeshError`]: the file cannot be read, breaks its format's rules or uses what is not supported; it has no
@@ -37,11 +38,12 @@ impl MovingMesh {
         let read: fn(&Path, &MeshOptions) -> Result<Loaded, Fault> = match ending.as_str() {
             "obj" => obj_file::read,
             "gltf" | "glb" => gltf_file::read,
+            "usd" | "usda" | "usdc" | "usdz" => usd_file::read,
             _ => {
                 return Err(MeshError::Unsupported {
                     path: path.to_owned(),
                     what: format!("the ending `.{ending}`"),
-                    remedy: "use .obj, .gltf or .glb",
+                    remedy: "use .obj, .gltf, .glb, .usd, .usda, .usdc or .usdz",
                 });
             }
         };
@@ -51,6 +53,8 @@ impl MovingMesh {
 
     fn new(path: &Path, loaded: Loaded, options: &MeshOptions) -> Result<Self, MeshError> {
         let Loaded { shape, mut motion, source } = loaded;
+        let chosen = options.animation.among(&motion.animations).map_err(|fault| fault.in_file(path))?;
+        motion.time_range = motion.time_range.filter(|_| chosen.is_some());
         let shape = shape.checked().map_err(|fault| fault.in_file(path))?;
         motion.frame_rate = options.frame_rate.or(motion.frame_rate);
         let mut mesh = MovingMesh { path: path.to_owned(), shape, motion, source, rest: Pose::default() };
@@ -151,7 +155,9 @@ impl MovingMesh {
         if let RestPose::Time(time) = at {
             finite("time", time)?;
         }
-        self.source.pose_into(at, pose)?;
+        // Without an animation every time is the same.
+        let at = if self.motion.time_range.is_none() && at.time().is_some() { RestPose::Nodes } else { at };
+        self.source.pose_into(at, pose).map_err(|fault| fault.in_file(&self.path))?;
         match pose.positions.iter().position(|p| !p.is_finite()) {
             None => Ok(()),
             Some(i) => {
@@ -167,7 +173,7 @@ impl MovingMesh {
     pub fn skeleton(&self) -> Option<&Skeleton> {
         match &self.source {
             Source::Gltf(rig) => rig.skeleton(),
-            Source::Still(_) => None,
+            Source::Still(_) | Source::Usd(_) => None,
         }
     }
 
@@ -180,7 +186,7 @@ impl MovingMesh {
         finite("time", time)?;
         Ok(match &self.source {
             Source::Gltf(rig) => rig.joint_worlds(RestPose::Time(time)),
-            Source::Still(_) => Vec::new(),
+            Source::Still(_) | Source::Usd(_) => Vec::new(),
         })
     }
 

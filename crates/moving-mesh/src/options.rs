@@ -7,11 +7,11 @@ pub struct MeshOptions {
     pub animation: AnimationChoice,
     /// The pose that [`MovingMesh::rest`](crate::MovingMesh::rest) gives.
     pub rest: RestPose,
-    /// Frames a second, above 0. Files whose times are frames (OBJ sequences: else 24; USD: else its
-    /// `timeCodesPerSecond`) are played at it; for others it is what
-    /// [`MovingMesh::frame_rate`](crate::MovingMesh::frame_rate) answers.
+    /// Frames a second, above 0. OBJ sequences are played at it (else at 24); other files know seconds, and it is
+    /// only what [`MovingMesh::frame_rate`](crate::MovingMesh::frame_rate) answers.
     pub frame_rate: Option<f64>,
-    /// First and last frame that a bake of a USD stage must cover; `None` takes the stage's own.
+    /// First and last frame that a bake of a USD stage must cover; `None` takes the stage's own. A frame is a
+    /// time code unless there is a [`frame_rate`](MeshOptions::frame_rate).
     pub frames: Option<(f64, f64)>,
     /// Frames between the samples of such a bake, above 0; `None` is 1, less gives sub-frames.
     pub step: Option<f64>,
@@ -20,16 +20,25 @@ pub struct MeshOptions {
 /// The pose a groom was made for.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum RestPose {
-    /// Skinned glTF meshes as they were modelled (their skin moves nothing), every other mesh as
-    /// [`RestPose::Nodes`].
+    /// Skinned glTF meshes as they were modelled (their skin moves nothing), UsdSkel meshes as they were bound,
+    /// every other mesh as [`RestPose::Nodes`].
     #[default]
     Bind,
     /// As the file stands without any animation: the transforms of its nodes, its skins, its default morph
     /// weights. A sequence has no such pose and takes its first frame, and so does a USD mesh without a value
-    /// outside its time samples.
+    /// outside its time samples; UsdSkel meshes are as in [`RestPose::Bind`].
     Nodes,
     /// As it is at this time, in seconds.
     Time(f64),
+}
+
+impl RestPose {
+    pub(crate) fn time(self) -> Option<f64> {
+        match self {
+            RestPose::Time(time) => Some(time),
+            RestPose::Bind | RestPose::Nodes => None,
+        }
+    }
 }
 
 /// One of a file's animations.

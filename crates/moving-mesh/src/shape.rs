@@ -1,5 +1,6 @@
 //! What stays as it is while a mesh moves.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{Vec2, Vec3};
@@ -42,10 +43,22 @@ impl Shape {
         uvs: Option<&[Vec2]>,
         look: Look,
     ) -> Result<(), Fault> {
-        if let Some((i, t)) =
-            triangles.iter().enumerate().find(|(_, t)| t.iter().any(|&v| v as usize >= vertices))
-        {
-            let fault = format!("vertex indices {t:?}, expected below the vertex count {vertices}");
+        self.append_parts(vertices, triangles, uvs, vec![(name, 0..triangles.len(), look)])
+    }
+
+    /// As [`Shape::append`], for several parts that have vertices in common.
+    pub(crate) fn append_parts(
+        &mut self,
+        vertices: usize,
+        triangles: &[[u32; 3]],
+        uvs: Option<&[Vec2]>,
+        parts: Vec<(String, Range<usize>, Look)>,
+    ) -> Result<(), Fault> {
+        let outside = triangles.iter().position(|t| t.iter().any(|&v| v as usize >= vertices));
+        if let Some(i) = outside {
+            let fault =
+                format!("vertex indices {:?}, expected below the vertex count {vertices}", triangles[i]);
+            let name = parts.first().map_or("", |(name, ..)| name);
             return Err(Fault::invalid(format!("{name} triangle {i}"), fault));
         }
         let total = self.vertex_count.saturating_add(vertices);
@@ -58,14 +71,14 @@ impl Shape {
         self.vertex_count = total;
         self.uvs.extend(uvs.unwrap_or_default());
         self.uvs.resize(total, Vec2::ZERO);
-        self.parts.push(Part {
+        self.parts.extend(parts.into_iter().map(|(name, range, look)| Part {
             name,
             material: look.material,
-            triangles: first..self.triangles.len(),
+            triangles: first + range.start..first + range.end,
             base_color: look.base_color,
             has_uvs: uvs.is_some(),
             texture: look.texture,
-        });
+        }));
         Ok(())
     }
 

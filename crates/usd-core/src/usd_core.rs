@@ -27,6 +27,8 @@ pub struct BakeOptions {
     pub step: Option<f64>,
     /// First and last time code; `None` takes the stage's own.
     pub frames: Option<(f64, f64)>,
+    /// Keep points in the prims' own spaces, each below one matrix in `f64`, rather than in the stage's.
+    pub transforms: bool,
 }
 
 impl UsdCore {
@@ -67,6 +69,9 @@ impl UsdCore {
         }
         if let Some((first, last)) = options.frames {
             arguments.extend(["--frames".into(), format!("{first}:{last}").into()]);
+        }
+        if options.transforms {
+            arguments.push("--transforms".into());
         }
         succeeded("bake.py", input, &self.run("bake.py", arguments)?)
     }

@@ -15,6 +15,7 @@ mod layer;
 pub mod read;
 mod value;
 pub mod write;
+pub mod xform;
 
 pub use element::{Element, Scalar, Shape};
 pub use layer::{Attribute, Layer, Metadata, Prim, Relationship, Samples, Specifier, VariantSet};

@@ -3,12 +3,13 @@
 use std::ops::Range;
 use std::sync::{Mutex, PoisonError};
 
-use glam::{DAffine3, DMat3, DMat4, DVec3, Vec3};
+use glam::{DAffine3, DMat4, DVec3, Vec3};
 use gltf_bytes::Local;
 
 use super::curve::Curve;
 use super::nodes::Nodes;
 use super::primitive::MorphTarget;
+use crate::normals::{cofactors, to_unit, turn};
 use crate::{Pose, RestPose, Skeleton};
 
 /// A scene, read; nothing of the file is looked at again.
@@ -58,7 +59,7 @@ impl Rig {
     /// `world_from_joint` of every joint of the skeleton.
     pub(crate) fn joint_worlds(&self, at: RestPose) -> Vec<DMat4> {
         self.with_room(|room| {
-            self.nodes.worlds(time_of(at), &mut room.locals, &mut room.worlds);
+            self.nodes.worlds(at.time(), &mut room.locals, &mut room.worlds);
             self.joint_slots.iter().map(|&slot| room.worlds[slot]).collect()
         })
     }
@@ -69,7 +70,7 @@ impl Rig {
 
     fn make(&self, at: RestPose, room: &mut Room, pose: &mut Pose) {
         let Room { locals, worlds, joints, weights } = room;
-        self.nodes.worlds(time_of(at), locals, worlds);
+        self.nodes.worlds(at.time(), locals, worlds);
         joints.clear();
         joints.extend(
             self.joint_slots
@@ -98,7 +99,7 @@ impl Rig {
     fn weigh(&self, piece: &Piece, at: RestPose, weights: &mut Vec<f64>) {
         weights.clone_from(&piece.default_weights);
         let curve = piece.curve.and_then(|curve| self.weights.get(curve));
-        if let (Some(curve), Some(time)) = (curve, time_of(at)) {
+        if let (Some(curve), Some(time)) = (curve, at.time()) {
             curve.sample(time, weights);
         }
     }
@@ -146,13 +147,6 @@ impl Piece {
     }
 }
 
-fn time_of(at: RestPose) -> Option<f64> {
-    match at {
-        RestPose::Time(time) => Some(time),
-        RestPose::Bind | RestPose::Nodes => None,
-    }
-}
-
 fn carry(world: &DAffine3, positions: &mut [DVec3], normals: Option<&mut [Vec3]>) {
     for position in positions {
         *position = world.transform_point3(*position);
@@ -178,20 +172,4 @@ fn blend(joints: &[DAffine3], influences: &[(u32, f32)]) -> DAffine3 {
     }
     let [x, y, z, w] = columns.map(|column| column * (1.0 / sum));
     DAffine3::from_cols(x, y, z, w)
-}
-
-/// The inverse transpose but for a factor above 0, also of a matrix that flattens or mirrors.
-fn cofactors(matrix: &DMat3) -> DMat3 {
-    let DMat3 { x_axis: x, y_axis: y, z_axis: z } = *matrix;
-    let yz = y.cross(z);
-    let sign = if x.dot(yz) < 0.0 { -1.0 } else { 1.0 };
-    DMat3::from_cols(yz * sign, z.cross(x) * sign, x.cross(y) * sign)
-}
-
-fn turn(cofactors: &DMat3, normal: &mut Vec3) {
-    *normal = (*cofactors * normal.as_dvec3()).normalize_or_zero().as_vec3();
-}
-
-fn to_unit(normal: &mut Vec3) {
-    *normal = normal.normalize_or_zero();
 }

@@ -27,7 +27,6 @@ mod frames;
 mod merge;
 mod stage;
 mod values;
-mod xform;
 
 use groom::UpAxis;
 use usd_layer::{Layer, ReadError};

@@ -1,9 +1,10 @@
 //! The curves of a stage and where they stand.
 
 use glam::{DMat4, DVec3};
-use usd_layer::{Layer, Prim, Specifier, Value};
+use usd_layer::{Layer, Prim, Specifier, Value, xform};
 
-use super::{Context, xform};
+use super::Context;
+use super::values::Fault;
 use crate::FormatError;
 
 /// Metadata that pulls in other layers or prims.
@@ -99,7 +100,7 @@ impl<B: AsRef<[u8]>> Stage<B> {
         let mut world = DMat4::IDENTITY;
         for prim in self.chain(place) {
             let (local, resets) = xform::parent_from_prim(&self.layer, prim, time)
-                .map_err(|fault| fault.into_error(&self.context.file, &place.path))?;
+                .map_err(|error| Fault::from(error).into_error(&self.context.file, &place.path))?;
             world = if resets { local } else { world * local };
         }
         if self.origin != DVec3::ZERO {

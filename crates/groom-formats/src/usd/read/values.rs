@@ -3,6 +3,7 @@
 use bytemuck::allocation::cast_vec;
 use glam::{Vec2, Vec3};
 use groom::Values;
+use usd_layer::xform::XformError;
 use usd_layer::{Attribute, Element, Layer, ReadError, Value};
 
 use crate::FormatError;
@@ -14,6 +15,12 @@ pub(super) enum Fault {
     Layer { attribute: String, error: ReadError },
     /// What they mean.
     Value { attribute: String, found: String, expected: String },
+}
+
+impl From<XformError> for Fault {
+    fn from(error: XformError) -> Self {
+        Fault::value(&error.attribute, error.found, error.expected)
+    }
 }
 
 impl Fault {

@@ -1,14 +1,12 @@
 //! Broken and strange glTF files are read or refused, never a panic.
 
-#![allow(clippy::unwrap_used, clippy::print_stdout)]
-
 use std::fs;
-use std::io::Write;
-use std::path::{Path, PathBuf};
 
 use glam::Vec3;
 use moving_mesh::{MeshError, TriangleMesh};
 use proptest::prelude::*;
+
+use crate::support::{data, glb};
 
 /// A GLB of one triangle, 42 bytes of buffer: positions, then u16 indices, with a node that moves it.
 fn one_triangle(json_extra: &str) -> Vec<u8> {
@@ -27,40 +25,11 @@ fn one_triangle(json_extra: &str) -> Vec<u8> {
     glb(json.as_bytes(), &binary)
 }
 
-fn glb(json: &[u8], binary: &[u8]) -> Vec<u8> {
-    let padded = |bytes: &[u8], pad: u8| {
-        let mut bytes = bytes.to_vec();
-        bytes.resize(bytes.len().next_multiple_of(4), pad);
-        bytes
-    };
-    let (json, binary) = (padded(json, b' '), padded(binary, 0));
-    let length = 12 + 8 + json.len() + 8 + binary.len();
-    let word = |n: usize| (n as u32).to_le_bytes().to_vec();
-    [b"glTF".to_vec(), word(2), word(length), word(json.len()), b"JSON".to_vec(), json]
-        .into_iter()
-        .chain([word(binary.len()), b"BIN\0".to_vec(), binary])
-        .collect::<Vec<_>>()
-        .concat()
-}
-
 fn open(bytes: &[u8]) -> Result<TriangleMesh, MeshError> {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("mesh.glb");
     fs::write(&path, bytes).unwrap();
     TriangleMesh::open(&path)
-}
-
-/// The folder of other people's files, when it is there.
-fn data(below: &str) -> Option<PathBuf> {
-    let root = std::env::var_os("GROOMKIT_DATA")
-        .map_or_else(|| Path::new(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"), PathBuf::from);
-    let path = root.join(below);
-    if !path.exists() {
-        // Not `eprintln!`, which the test harness hides.
-        let _ = writeln!(std::io::stderr(), "skipped: {below} is not in $GROOMKIT_DATA");
-        return None;
-    }
-    Some(path)
 }
 
 #[test]

@@ -1,31 +1,58 @@
 //! Transforms of prims: `xformOpOrder` and the ops it names (UsdGeomXformable).
 
 use glam::{DMat4, DQuat, DVec3};
-use usd_layer::{Attribute, Layer, Prim, Value};
 
-use super::values::Fault;
+use crate::{Attribute, Layer, Prim, ReadError, Value};
+
+/// A transform that cannot be worked out.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{attribute}: found {found}, expected {expected}")]
+pub struct XformError {
+    /// The attribute at fault, with its place in the file where its bytes are broken.
+    pub attribute: String,
+    /// What is there.
+    pub found: String,
+    /// What would be right.
+    pub expected: String,
+}
+
+impl XformError {
+    fn value(attribute: &str, found: impl Into<String>, expected: impl Into<String>) -> Self {
+        XformError { attribute: attribute.into(), found: found.into(), expected: expected.into() }
+    }
+
+    fn layer(attribute: &str, error: ReadError) -> Self {
+        XformError::value(&format!("{attribute}, {}", error.place), error.found, error.expected)
+    }
+}
 
 /// The op that leaves out the transforms of the prims above.
 const RESET: &str = "!resetXformStack!";
 const INVERSE: &str = "!invert!";
 
 /// The ops of a prim that move.
-pub(super) fn moving_attributes(prim: &Prim) -> impl Iterator<Item = &Attribute> {
+pub fn moving_attributes(prim: &Prim) -> impl Iterator<Item = &Attribute> {
     let ops = prim.attributes.iter().filter(|attribute| attribute.name.starts_with("xformOp:"));
     ops.filter(|attribute| attribute.samples.is_some())
 }
 
-/// From the prim's space to its parent's, and whether the transforms above it do not count.
-pub(super) fn parent_from_prim<B: AsRef<[u8]>>(
+/// From the prim's space to its parent's, for columns of points, and whether the transforms above it do not count.
+/// Numbers are linear between samples, turns given as quaternions go the shortest way. `None` asks for the
+/// transform at no time in particular.
+///
+/// # Errors
+/// [`XformError`]: an op that is named and not there, of a kind or a number of numbers that UsdGeomXformOp does
+/// not have, or to be inverted without having an inverse.
+pub fn parent_from_prim<B: AsRef<[u8]>>(
     layer: &Layer<B>,
     prim: &Prim,
     time: Option<f64>,
-) -> Result<(DMat4, bool), Fault> {
+) -> Result<(DMat4, bool), XformError> {
     let (mut matrix, mut resets) = (DMat4::IDENTITY, false);
     let Some(order) = prim.attribute("xformOpOrder").and_then(|order| order.held(time)) else {
         return Ok((matrix, resets));
     };
-    let fault = |error| Fault::Layer { attribute: "xformOpOrder".into(), error };
+    let fault = |error| XformError::layer("xformOpOrder", error);
     // The first op is the outermost: what is nearest to the points comes last.
     for op in layer.texts(order).map_err(fault)? {
         if &*op == RESET {
@@ -34,15 +61,15 @@ pub(super) fn parent_from_prim<B: AsRef<[u8]>>(
         }
         let (name, inverse) = op.strip_prefix(INVERSE).map_or((&*op, false), |name| (name, true));
         let Some(attribute) = prim.attribute(name) else {
-            return Err(Fault::value(name, "no such op", "one for every name in xformOpOrder"));
+            return Err(XformError::value(name, "no such op", "one for every name in xformOpOrder"));
         };
         // An op without a value does nothing.
         let Some(value) = components(attribute, time) else { continue };
         let of = matrix_of(name, &value).ok_or_else(|| {
-            Fault::value(name, format!("{} numbers of an op", value.len()), "an op of UsdGeomXformOp")
+            XformError::value(name, format!("{} numbers of an op", value.len()), "an op of UsdGeomXformOp")
         })?;
         if inverse && of.determinant() == 0.0 {
-            return Err(Fault::value(name, "a transform without an inverse", "one that keeps volumes"));
+            return Err(XformError::value(name, "a transform without an inverse", "one that keeps volumes"));
         }
         matrix *= if inverse { of.inverse() } else { of };
     }
