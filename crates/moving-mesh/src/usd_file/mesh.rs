@@ -1,22 +1,17 @@
 //! A Mesh prim: its triangles, and which of its points and corners each vertex is.
 
-use std::collections::HashMap;
-use std::ops::Range;
-use std::sync::Arc;
-
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 use usd_layer::{Attribute, Layer, Prim, Value, xform};
 
+use super::between::{Between, Vectors};
 use super::polygons::Fans;
-use super::primvar::{Corner, Counts, Spread, first_value};
+use super::primvar::{Corner, Counts, Primvar, Spread};
 use super::stage::{Place, fault_of};
-use super::subsets;
+use super::subsets::{self, Run};
+use super::vertices;
 use crate::error::Fault;
 use crate::normals::{cofactors, turn};
 use crate::recent::Recent;
-
-/// Points, or normals: one sample.
-type Vectors = Vec<[f32; 3]>;
 
 /// A mesh of a stage.
 #[derive(Debug)]
@@ -27,7 +22,7 @@ pub(super) struct Mesh {
     pub(super) corners: Vec<Corner>,
     pub(super) triangles: Vec<[u32; 3]>,
     /// Triangles of one material: the prim that binds it to some faces, if it is not the mesh itself.
-    pub(super) parts: Vec<(Option<String>, Range<usize>)>,
+    pub(super) parts: Vec<Run>,
     pub(super) uvs: Option<Vec<Vec2>>,
     counts: Counts,
     normals: Option<(String, Spread)>,
@@ -37,16 +32,13 @@ pub(super) struct Mesh {
     normals_read: Recent<Vectors>,
 }
 
-/// A vertex is one point with one texture coordinate and one normal, by their bits.
-type Key = (u32, [u32; 2], [u32; 3]);
-
 impl Mesh {
     pub(super) fn read<B: AsRef<[u8]>>(layer: &Layer<B>, place: Place) -> Result<Mesh, Fault> {
         let chain = place.chain(layer);
         let prim = *chain.last().ok_or_else(|| Fault::invalid(&place.path, "no prim, expected one"))?;
         let integers = |name: &str| whole(layer, prim, name);
         let (counts, indices) = (integers("faceVertexCounts")?, integers("faceVertexIndices")?);
-        let points = prim.attribute("points").and_then(first_value);
+        let points = prim.attribute("points").and_then(|points| points.held(None));
         let points = points.map(|value| vectors(layer, "points", value)).transpose()?.unwrap_or_default();
         let numbers = Counts { faces: counts.len(), points: points.len(), corners: indices.len() };
         if let Some(i) = indices.iter().position(|&i| usize::try_from(i).map_or(true, |i| i >= points.len()))
@@ -70,33 +62,18 @@ impl Mesh {
         let corners: Vec<Corner> = (0..indices.len()).map(corner).collect();
         let uvs = uvs(layer, prim, numbers)?;
         let normals = normals(layer, prim, numbers)?;
-        let by_corner = |spread: Option<&Spread>| spread.is_some_and(Spread::is_by_corner);
-        let split = by_corner(uvs.as_ref().map(|(spread, _)| spread))
-            || by_corner(normals.as_ref().map(|(_, spread, _)| spread));
+        let split = uvs.as_ref().is_some_and(|uvs| uvs.spread.is_by_corner())
+            || normals.as_ref().is_some_and(|normals| normals.spread.is_by_corner());
         let (vertices, triangles) = if split {
-            let key = |at: &Corner| -> Key {
-                let uv = uvs.as_ref().map(|(spread, values)| values[spread.place(*at)]);
-                let normal = normals.as_ref().map(|(_, spread, values)| values[spread.place(*at)]);
-                (
-                    at.point,
-                    uv.unwrap_or_default().map(f32::to_bits),
-                    normal.unwrap_or_default().map(f32::to_bits),
-                )
-            };
-            apart(&corners, &fans.triangles, key)
+            vertices::apart(&corners, &fans.triangles, |at| {
+                let uv = uvs.as_ref().map(|uvs| uvs.at(*at)).unwrap_or_default();
+                let normal = normals.as_ref().map(|normals| normals.at(*at)).unwrap_or_default();
+                (at.point, uv.map(f32::to_bits), normal.map(f32::to_bits))
+            })
         } else {
-            // Every point is a vertex, used or not: those who know the file know their numbers.
-            let mut vertices: Vec<Corner> =
-                (0..points.len() as u32).map(|point| Corner { corner: 0, point, face: 0 }).collect();
-            for corner in corners.iter().rev() {
-                vertices[corner.point as usize] = *corner;
-            }
-            let point = |corner: u32| corners[corner as usize].point;
-            (vertices, fans.triangles.iter().map(|triangle| triangle.map(point)).collect())
+            vertices::points(points.len(), &corners, &fans.triangles)
         };
-        let uvs = uvs.map(|(spread, values)| {
-            vertices.iter().map(|at| Vec2::from(values[spread.place(*at)])).collect()
-        });
+        let uvs = uvs.map(|uvs| vertices.iter().map(|at| Vec2::from(uvs.at(*at))).collect());
         let moves = chain.iter().any(|prim| xform::moving_attributes(prim).next().is_some());
         Ok(Mesh {
             corners: vertices,
@@ -104,7 +81,7 @@ impl Mesh {
             parts,
             uvs,
             counts: numbers,
-            normals: normals.map(|(name, spread, _)| (name, spread)),
+            normals: normals.map(|normals| (normals.name, normals.spread)),
             still_world: (!moves).then_some(world),
             points_read: Recent::default(),
             normals_read: Recent::default(),
@@ -180,47 +157,6 @@ impl Mesh {
     }
 }
 
-/// Two samples and how far a time is from the first to the second.
-struct Between {
-    before: Arc<Vectors>,
-    after: Arc<Vectors>,
-    part: f64,
-}
-
-impl Between {
-    /// Those of `attribute` around `time`; `read` is told how to name them.
-    fn of(
-        attribute: &Attribute,
-        time: Option<f64>,
-        recent: &Recent<Vectors>,
-        read: impl Fn(&Value, &str) -> Result<Vectors, Fault>,
-    ) -> Result<Between, Fault> {
-        let (Some(samples), Some(time)) = (attribute.samples.as_deref(), time) else {
-            let value = attribute.held(time);
-            let none = || Fault::invalid(&*attribute.name, "no value, expected one");
-            let value = recent.get(usize::MAX, || read(value.ok_or_else(none)?, &attribute.name))?;
-            return Ok(Between { before: Arc::clone(&value), after: value, part: 0.0 });
-        };
-        let sample = |number: usize| {
-            recent.get(number, || {
-                let at = samples.times.get(number).copied().unwrap_or_default();
-                let name = format!("{} at time code {at}", attribute.name);
-                let value = samples.values.get(number);
-                read(value.ok_or_else(|| Fault::invalid(&name, "no value, expected one"))?, &name)
-            })
-        };
-        let (first, second, part) = samples.around(time);
-        let before = sample(first)?;
-        let after = if part > 0.0 { sample(second)? } else { Arc::clone(&before) };
-        Ok(Between { before, after, part })
-    }
-
-    fn at(&self, place: usize) -> DVec3 {
-        let [before, after] = [&self.before, &self.after].map(|sample| Vec3::from(sample[place]).as_dvec3());
-        before + (after - before) * self.part
-    }
-}
-
 /// From the space of the last prim of a chain to the stage's.
 fn world<B: AsRef<[u8]>>(layer: &Layer<B>, chain: &[&Prim], time: Option<f64>) -> Result<DMat4, Fault> {
     let mut world = DMat4::IDENTITY;
@@ -253,19 +189,11 @@ fn vectors<B: AsRef<[u8]>>(layer: &Layer<B>, name: &str, value: &Value) -> Resul
 }
 
 /// `primvars:st`, else the first primvar of texture coordinates.
-fn uvs<B: AsRef<[u8]>>(
-    layer: &Layer<B>,
-    prim: &Prim,
-    counts: Counts,
-) -> Result<Option<(Spread, Vec<[f32; 2]>)>, Fault> {
+fn uvs<B: AsRef<[u8]>>(layer: &Layer<B>, prim: &Prim, counts: Counts) -> Result<Option<Primvar<2>>, Fault> {
     let coordinates =
         |a: &&Attribute| a.name.starts_with("primvars:") && a.type_name.starts_with("texCoord2");
     let st = prim.attribute("primvars:st").or_else(|| prim.attributes.iter().find(coordinates));
-    let Some((attribute, value)) = st.and_then(|st| first_value(st).map(|value| (st, value))) else {
-        return Ok(None);
-    };
-    let Some(spread) = Spread::of(layer, prim, attribute, "constant", counts)? else { return Ok(None) };
-    Ok(spread.values(layer, &attribute.name, value)?.map(|values| (spread, values)))
+    st.map_or(Ok(None), |st| Primvar::read(layer, prim, st, "constant", counts))
 }
 
 /// `primvars:normals`, else `normals`.
@@ -273,36 +201,11 @@ fn normals<B: AsRef<[u8]>>(
     layer: &Layer<B>,
     prim: &Prim,
     counts: Counts,
-) -> Result<Option<(String, Spread, Vectors)>, Fault> {
+) -> Result<Option<Primvar<3>>, Fault> {
     for (name, fallback) in [("primvars:normals", "constant"), ("normals", "vertex")] {
-        let attribute = prim.attribute(name);
-        let Some((attribute, value)) = attribute.and_then(|a| first_value(a).map(|value| (a, value))) else {
-            continue;
-        };
-        let Some(spread) = Spread::of(layer, prim, attribute, fallback, counts)? else { return Ok(None) };
-        let values = spread.values(layer, name, value)?;
-        return Ok(values.map(|values| (name.to_owned(), spread, values)));
+        if let Some(attribute) = prim.attribute(name).filter(|attribute| attribute.has_value()) {
+            return Primvar::read(layer, prim, attribute, fallback, counts);
+        }
     }
     Ok(None)
-}
-
-/// A vertex for every key, and the triangles of vertices; vertices are in the order in which corners meet them.
-fn apart(
-    corners: &[Corner],
-    triangles: &[[u32; 3]],
-    key: impl Fn(&Corner) -> Key,
-) -> (Vec<Corner>, Vec<[u32; 3]>) {
-    let mut known: HashMap<Key, u32> = HashMap::new();
-    let mut vertices = Vec::new();
-    let numbers: Vec<u32> = corners
-        .iter()
-        .map(|corner| {
-            *known.entry(key(corner)).or_insert_with(|| {
-                vertices.push(*corner);
-                vertices.len() as u32 - 1
-            })
-        })
-        .collect();
-    let number = |corner: u32| numbers[corner as usize];
-    (vertices, triangles.iter().map(|triangle| triangle.map(number)).collect())
 }

@@ -20,12 +20,14 @@
 //! Composition (references, payloads, sublayers, inherits, specializes, clips) and UsdSkel are evaluated by
 //! usd-core into a plain layer with the samples that the options ask for, which is then read as any other.
 
+mod between;
 mod looks;
 mod mesh;
 mod polygons;
 mod primvar;
 mod stage;
 mod subsets;
+mod vertices;
 
 use std::path::Path;
 

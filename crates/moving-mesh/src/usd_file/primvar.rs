@@ -100,7 +100,30 @@ impl Spread {
     }
 }
 
-/// The value to start from: the default, else the first sample.
-pub(super) fn first_value(attribute: &Attribute) -> Option<&Value> {
-    attribute.held(None)
+/// An attribute spread over a mesh, and its values at the first time.
+#[derive(Clone, Debug)]
+pub(super) struct Primvar<const N: usize> {
+    pub(super) name: String,
+    pub(super) spread: Spread,
+    values: Vec<[f32; N]>,
+}
+
+impl<const N: usize> Primvar<N> {
+    /// `None` where `attribute` has no value, or one that does not fit the mesh.
+    pub(super) fn read<B: AsRef<[u8]>>(
+        layer: &Layer<B>,
+        prim: &Prim,
+        attribute: &Attribute,
+        fallback: &str,
+        counts: Counts,
+    ) -> Result<Option<Self>, Fault> {
+        let Some(value) = attribute.held(None) else { return Ok(None) };
+        let Some(spread) = Spread::of(layer, prim, attribute, fallback, counts)? else { return Ok(None) };
+        let values = spread.values(layer, &attribute.name, value)?;
+        Ok(values.map(|values| Primvar { name: attribute.name.to_string(), spread, values }))
+    }
+
+    pub(super) fn at(&self, corner: Corner) -> [f32; N] {
+        self.values[self.spread.place(corner)]
+    }
 }

@@ -8,13 +8,16 @@ use super::polygons::Fans;
 use super::stage::fault_of;
 use crate::error::Fault;
 
+/// Triangles in a row: the subset that they are, if they are one.
+pub(super) type Run = (Option<String>, Range<usize>);
+
 /// Puts triangles of one material in a row: first those of the mesh's own, then subset after subset. Gives the name
 /// of the subset, if it is one, and its triangles.
 pub(super) fn part<B: AsRef<[u8]>>(
     layer: &Layer<B>,
     mesh: &Prim,
     fans: &mut Fans,
-) -> Result<Vec<(Option<String>, Range<usize>)>, Fault> {
+) -> Result<Vec<Run>, Fault> {
     let faces = fans.corner_faces.last().map_or(0, |&last| last as usize + 1);
     let mut names = vec![None];
     let mut part_of = vec![0_usize; faces];
