@@ -70,11 +70,25 @@ pub enum MeshError {
 /// A fault inside a file whose path the caller knows: place and fault, or unsupported.
 #[derive(Debug)]
 pub(crate) enum Fault {
-    Invalid { place: String, fault: String },
-    Unsupported { what: String, remedy: &'static str },
-    Io { path: PathBuf, source: io::Error },
-    NoAnimation { asked: String, known: String },
+    Invalid {
+        place: String,
+        fault: String,
+    },
+    Unsupported {
+        what: String,
+        remedy: &'static str,
+    },
+    Io {
+        path: PathBuf,
+        source: io::Error,
+    },
+    NoAnimation {
+        asked: String,
+        known: String,
+    },
     UsdCore(UsdCoreError),
+    /// In another file, whose name it has.
+    Told(Box<MeshError>),
 }
 
 impl Fault {
@@ -96,6 +110,7 @@ impl Fault {
             Fault::Invalid { place, fault } => MeshError::Invalid { path, place, fault },
             Fault::Unsupported { what, remedy } => MeshError::Unsupported { path, what, remedy },
             Fault::Io { path, source } => MeshError::Io { path, source },
+            Fault::Told(error) => *error,
             Fault::UsdCore(source) => MeshError::UsdCore { path, source },
             Fault::NoAnimation { asked, known } => MeshError::NoAnimation { path, asked, known },
         }

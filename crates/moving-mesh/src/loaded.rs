@@ -2,6 +2,7 @@
 
 use crate::error::Fault;
 use crate::gltf_file::Rig;
+use crate::obj_file::Sequence;
 use crate::shape::Shape;
 use crate::usd_file::Film;
 use crate::{Animation, Pose, RestPose};
@@ -43,6 +44,7 @@ pub(crate) enum Source {
     Still(Pose),
     Gltf(Box<Rig>),
     Usd(Box<Film>),
+    Sequence(Box<Sequence>),
 }
 
 impl Source {
@@ -51,6 +53,7 @@ impl Source {
             Source::Still(still) => pose.clone_from(still),
             Source::Gltf(rig) => rig.pose_into(at, pose),
             Source::Usd(film) => film.pose_into(at.time(), pose)?,
+            Source::Sequence(sequence) => sequence.pose_into(at.time(), pose)?,
         }
         Ok(())
     }

@@ -26,7 +26,9 @@ pub struct MovingMesh {
 }
 
 impl MovingMesh {
-    /// Reads `.obj`, `.gltf`, `.glb`, `.usd`, `.usda`, `.usdc` or `.usdz`, told apart by the ending; all meshes of the file become one.
+    /// Reads `.obj`, `.gltf`, `.glb`, `.usd`, `.usda`, `.usdc` or `.usdz`, told apart by the ending; all meshes
+    /// of the file become one. A name with `#` in the place of digits, `walk.####.obj`, is a sequence with one OBJ
+    /// file a frame: they are read when a pose wants them, and a few are kept.
     ///
     /// # Errors
     /// [`MeshError`]: the file cannot be read, breaks its format's rules or uses what is not supported; it has no
@@ -145,8 +147,9 @@ impl MovingMesh {
     /// The pose at `time`, in seconds, into a pose that exists: where that had the size, no memory is taken.
     ///
     /// # Errors
-    /// [`MeshError::Parameter`] for a time that is no number, [`MeshError::Invalid`] for a vertex that flies
-    /// out of the numbers. What `pose` then holds is not to be used.
+    /// [`MeshError::Parameter`] for a time that is no number; [`MeshError::Invalid`] for a vertex that flies
+    /// out of the numbers, and for a frame that is another mesh, which it names. What `pose` then holds is not to
+    /// be used.
     pub fn pose_into(&self, time: f64, pose: &mut Pose) -> Result<(), MeshError> {
         self.at(RestPose::Time(time), pose)
     }
@@ -173,7 +176,7 @@ impl MovingMesh {
     pub fn skeleton(&self) -> Option<&Skeleton> {
         match &self.source {
             Source::Gltf(rig) => rig.skeleton(),
-            Source::Still(_) | Source::Usd(_) => None,
+            _ => None,
         }
     }
 
@@ -186,7 +189,7 @@ impl MovingMesh {
         finite("time", time)?;
         Ok(match &self.source {
             Source::Gltf(rig) => rig.joint_worlds(RestPose::Time(time)),
-            Source::Still(_) | Source::Usd(_) => Vec::new(),
+            _ => Vec::new(),
         })
     }
 

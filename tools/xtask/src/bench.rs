@@ -12,6 +12,7 @@ const BENCHES: [(&str, &str); 11] = [
     ("groom-formats", "usd"),
     ("groom-formats", "alembic"),
     ("groom-formats", "gltf"),
+    ("moving-mesh", "pose"),
     ("fibre-scattering", "scattering"),
     ("strand-tracing", "rays"),
     ("strand-tracing", "motion"),

@@ -79,10 +79,7 @@ impl Rig {
                 .map(|(&slot, joint)| DAffine3::from_mat4(worlds[slot] * joint.inverse_bind)),
         );
         pose.positions.clone_from(&self.positions);
-        match (&mut pose.normals, &self.normals) {
-            (Some(to), Some(from)) => to.clone_from(from),
-            (to, from) => *to = from.clone(),
-        }
+        pose.normals.clone_from(&self.normals);
         for piece in &self.pieces {
             let positions = &mut pose.positions[piece.vertices.clone()];
             let mut normals = pose.normals.as_mut().map(|normals| &mut normals[piece.vertices.clone()]);

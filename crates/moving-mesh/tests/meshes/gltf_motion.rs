@@ -2,6 +2,7 @@
 
 use glam::{DQuat, DVec3, Vec2, Vec3};
 use moving_mesh::{AnimationChoice, MeshError, MeshOptions, MovingMesh, RestPose};
+use proptest::prelude::*;
 
 use crate::support::{Gltf, open_as};
 
@@ -368,4 +369,24 @@ fn texture_coordinates_go_up_and_parts_have_their_materials() {
     assert_eq!((uvs[3], uvs[4], uvs[7]), (Vec2::ZERO, Vec2::new(0.0, 1.0), Vec2::new(0.25, 0.25)));
     // A picture that is not there is no reason to refuse the mesh.
     assert!(matches!(lost.texture(), Err(MeshError::Io { .. })));
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+    #[test]
+    fn animated_files_that_were_bent_are_read_or_refused(
+        changes in prop::collection::vec((any::<prop::sample::Index>(), any::<u8>()), 1..4),
+        time in -1.0..2.0,
+    ) {
+        let mut gltf = shape();
+        let members = arm(&mut gltf, "");
+        let mut file = gltf.file(&members);
+        for (at, value) in changes {
+            let at = at.index(file.len());
+            file[at] = value;
+        }
+        if let Ok(mesh) = open_as("a.glb", &file, &bend()) {
+            let _ = (mesh.pose(time), mesh.joint_worlds(time));
+        }
+    }
 }

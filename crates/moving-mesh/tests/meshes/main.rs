@@ -5,5 +5,7 @@
 mod broken_files;
 mod gltf_files;
 mod gltf_motion;
+mod obj;
 mod support;
 mod usd;
+mod usd_skel;

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use glam::DVec3;
 use moving_mesh::{MeshError, MeshOptions, MovingMesh, Pose};
+use usd_core::UsdCoreError;
 
 /// A file or folder of other people's, when it is there.
 pub fn data(below: &str) -> Option<PathBuf> {
@@ -47,6 +48,17 @@ pub fn open_as(name: &str, bytes: &[u8], options: &MeshOptions) -> Result<Moving
     let path = folder.path().join(name);
     fs::write(&path, bytes).unwrap();
     MovingMesh::open(&path, options)
+}
+
+/// As [`open_as`], of a file that needs usd-core; nothing where that is not installed.
+pub fn open_as_or_skip(name: &str, bytes: &[u8], options: &MeshOptions) -> Option<MovingMesh> {
+    match open_as(name, bytes, options) {
+        Err(MeshError::UsdCore { source: UsdCoreError::Missing { .. }, .. }) => {
+            skipped("usd-core is not installed");
+            None
+        }
+        mesh => Some(mesh.unwrap()),
+    }
 }
 
 /// The length of the diagonal of the box around a pose.
