@@ -66,7 +66,12 @@ fn a_frame_that_is_another_mesh_is_told_with_its_file() {
         "{error}"
     );
     let error = told(&|_| "v 0 0 0\n".into());
-    assert!(error.contains("frame 10: topology: 0 objects with faces, expected the 1 of frame 8"), "{error}");
+    assert!(
+        error.contains("frame 10: object `unnamed_object`: 0 triangles, expected the 2 of frame 8"),
+        "{error}"
+    );
+    let error = told(&|text| format!("{text}o more\nf 1 2 3\n"));
+    assert!(error.contains("frame 10: topology: 2 objects with faces, expected the 1 of frame 8"), "{error}");
     let error = told(&|text| text.replace("v 1 1 0", "v 1 one 0"));
     assert!(error.contains("walk.010.obj: frame 10: OBJ text"), "{error}");
     let error = told(&|text| text.replace("v 1 1 0", "v 1 nan 0"));
