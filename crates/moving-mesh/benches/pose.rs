@@ -5,6 +5,7 @@
 
 #![allow(missing_docs)] // criterion's macros
 
+use std::f32::consts::TAU;
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::time::Duration;
@@ -44,7 +45,7 @@ fn tube(folder: &Path) -> std::io::Result<PathBuf> {
         );
     };
     let vertices =
-        || (0..RINGS).flat_map(|ring| (0..AROUND).map(move |i| (ring, i as f32 / AROUND as f32 * 6.283)));
+        || (0..RINGS).flat_map(|ring| (0..AROUND).map(move |i| (ring, i as f32 / AROUND as f32 * TAU)));
     let normals: Vec<f32> = vertices().flat_map(|(_, angle)| [angle.cos(), 0.0, angle.sin()]).collect();
     let points: Vec<f32> =
         vertices().flat_map(|(ring, angle)| [angle.cos(), ring as f32 * 0.1, angle.sin()]).collect();

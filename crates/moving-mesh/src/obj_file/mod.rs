@@ -37,13 +37,7 @@ fn parse(
     single_index: bool,
 ) -> Result<(Vec<Model>, Vec<Material>), Fault> {
     // Lines and points are no surface; tobj would hand them out as thin triangles.
-    let options = LoadOptions {
-        triangulate: true,
-        single_index,
-        ignore_lines: true,
-        ignore_points: true,
-        ..LoadOptions::default()
-    };
+    let options = LoadOptions { triangulate: true, single_index, ignore_lines: true, ignore_points: true };
     let loaded = tobj::load_obj_buf(reader, &options, |library| materials::load(folder, library));
     let (models, materials) = loaded.map_err(|e| Fault::invalid("OBJ text", e.to_string()))?;
     // A library that is lost is no reason to refuse the mesh.
