@@ -5,7 +5,7 @@ use anyhow::Result;
 use crate::shell::{cargo, step};
 
 /// Every bench program of the workspace, low to high.
-const BENCHES: [(&str, &str); 11] = [
+const BENCHES: [(&str, &str); 13] = [
     ("cyhair", "read"),
     ("usd-layer", "read"),
     ("groom-formats", "convert"),
