@@ -94,6 +94,54 @@ class Baking(unittest.TestCase):
         found = [points.Get(time)[0][0] for time in (0, 0.25, 0.5, 0.75, 1, 1.5)]
         np.testing.assert_allclose(found, [0, 2, 4, 2, 0, 0], atol=1e-6)
 
+    def test_a_skinned_prim_keeps_its_bind_pose_and_far_ones_their_shape(self):
+        path = self.path("far.usda")
+        stage = Usd.Stage.CreateNew(path)
+        stage.SetStartTimeCode(0)
+        stage.SetEndTimeCode(2)
+        UsdSkel.Root.Define(stage, "/R")
+        far = UsdGeom.Xform.Define(stage, "/R/Far")
+        far.AddTranslateOp().Set(Gf.Vec3d(1e6, 0, 0.1))
+        skeleton = UsdSkel.Skeleton.Define(stage, "/R/Far/S")
+        skeleton.CreateJointsAttr(["j"])
+        skeleton.CreateBindTransformsAttr([Gf.Matrix4d(1)])
+        skeleton.CreateRestTransformsAttr([Gf.Matrix4d(1)])
+        motion = UsdSkel.Animation.Define(stage, "/R/Far/S/M")
+        motion.CreateJointsAttr(["j"])
+        motion.CreateTranslationsAttr([Gf.Vec3f(0)])
+        motion.CreateScalesAttr([Gf.Vec3h(1)])
+        half = 0.5**0.5
+        # Always turned by 90 degrees about z: nothing moves, and the bind pose is still another.
+        motion.CreateRotationsAttr([Gf.Quatf(half, 0, 0, half)])
+        UsdSkel.BindingAPI.Apply(skeleton.GetPrim()).CreateAnimationSourceRel().SetTargets(["/R/Far/S/M"])
+        mesh = UsdGeom.Mesh.Define(stage, "/R/Far/B")
+        mesh.CreatePointsAttr([(0.001, 0, 0), (1, 0, 0), (0, 1, 0)])
+        mesh.CreateNormalsAttr([(1, 0, 0)] * 3)
+        mesh.CreateFaceVertexCountsAttr([3])
+        mesh.CreateFaceVertexIndicesAttr([0, 1, 2])
+        binding = UsdSkel.BindingAPI.Apply(mesh.GetPrim())
+        binding.CreateSkeletonRel().SetTargets(["/R/Far/S"])
+        binding.CreateJointIndicesPrimvar(False, 1).Set([0, 0, 0])
+        binding.CreateJointWeightsPrimvar(False, 1).Set([1.0, 1.0, 1.0])
+        stage.GetRootLayer().Save()
+        self.assertEqual(bake.main([path, self.path("out.usda"), "--transforms"]), 0)
+        out = Usd.Stage.Open(self.path("out.usda"))
+        prim = out.GetPrimAtPath("/R/Far/B")
+
+        def placed(time):
+            world = np.array(UsdGeom.XformCache(time).GetLocalToWorldTransform(prim))
+            points = np.asarray(UsdGeom.Mesh(prim).GetPointsAttr().Get(time), float)
+            return points @ world[:3, :3] + world[3, :3] - [1e6, 0, 0.1]
+
+        np.testing.assert_allclose(placed(Usd.TimeCode.Default()), [(0.001, 0, 0), (1, 0, 0), (0, 1, 0)], atol=1e-7)
+        np.testing.assert_allclose(placed(1), [(0, 0.001, 0), (0, 1, 0), (-1, 0, 0)], atol=1e-6)
+        np.testing.assert_allclose(UsdGeom.Mesh(prim).GetNormalsAttr().Get(1), [(0, 1, 0)] * 3, atol=1e-6)
+        # Without it the points are in the stage's space, as far as float32 has it.
+        self.assertEqual(bake.main([path, self.path("out.usda")]), 0)
+        out.Reload()
+        points = UsdGeom.Mesh(out.GetPrimAtPath("/R/Far/B")).GetPointsAttr()
+        np.testing.assert_allclose(points.Get(1)[1], (1e6, 1, 0.1), atol=0.1)
+
     def test_changing_topology_is_refused_and_leaves_the_old_file(self):
         stage = moving_stage(self.path("in.usda"))
         counts = UsdGeom.Mesh(stage.GetPrimAtPath("/Still")).GetFaceVertexCountsAttr()

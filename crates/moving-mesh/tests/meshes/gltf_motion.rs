@@ -252,11 +252,14 @@ fn morph_targets_add_up() {
         "indices":{{"bufferView":{index},"componentType":5121}},"values":{{"bufferView":{delta}}}}}"#
     ));
     let all = gltf.floats("VEC3", &[-1., 0., 0.].repeat(4));
+    let normals = gltf.floats("VEC3", &[0., 0., 1.].repeat(4));
+    let tilts = gltf.floats("VEC3", &[0., 1., 0.].repeat(4));
     let input = gltf.floats("SCALAR", &[0.0, 1.0]);
     let output = gltf.floats("SCALAR", &[0.0, 1.0, 1.0, 0.5]);
     let members = format!(
-        r#""nodes":[{{"mesh":0}}],"meshes":[{{"weights":[0.25,2],"primitives":[{{"attributes":{{"POSITION":0}},"indices":1,
-        "targets":[{{"POSITION":{sparse}}},{{"POSITION":{all}}}]}}]}}],
+        r#""nodes":[{{"mesh":0}}],"meshes":[{{"weights":[0.25,2],"primitives":[
+        {{"attributes":{{"POSITION":0,"NORMAL":{normals}}},"indices":1,
+        "targets":[{{"POSITION":{sparse}}},{{"POSITION":{all},"NORMAL":{tilts}}}]}}]}}],
         "animations":[{{"samplers":[{{"input":{input},"output":{output}}}],
         "channels":[{{"sampler":0,"target":{{"node":0,"path":"weights"}}}}]}}]"#
     );
@@ -264,6 +267,8 @@ fn morph_targets_add_up() {
     assert_eq!(mesh.rest().positions[1], DVec3::new(-1.0, 0.0, 0.75));
     assert_eq!(mesh.pose(0.5).unwrap().positions[1], DVec3::new(0.25, 0.0, 1.5));
     assert_eq!(mesh.pose(1.0).unwrap().positions[0], DVec3::new(-0.5, 0.0, 0.0));
+    let normal = mesh.pose(0.0).unwrap().normals.unwrap()[2];
+    assert!((normal - Vec3::new(0.0, 1.0, 1.0).normalize()).length() < 1e-6, "{normal}");
     let still = MeshOptions { animation: AnimationChoice::None, ..MeshOptions::default() };
     let still = open(&gltf.file(&members), &still);
     assert_eq!(still.pose(0.5).unwrap(), *still.rest());
