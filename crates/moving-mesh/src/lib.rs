@@ -9,7 +9,14 @@
 //! # Ok::<(), moving_mesh::MeshError>(())
 //! ```
 //!
-//! Knows no hair and no light.
+//! | format | what moves it |
+//! |---|---|
+//! | glTF | skins (any number of joints a vertex), morph targets, nodes; STEP, LINEAR, CUBICSPLINE keys; any animation |
+//! | OBJ | a file a frame, `walk.####.obj`: linear between frames |
+//! | USD | samples of points, normals and transforms; UsdSkel, blend shapes and composition through usd-core |
+//!
+//! Which triangles there are never changes: a frame that is another mesh is an error that names it. Positions are
+//! `f64`. Knows no hair and no light.
 
 mod choice;
 mod error;
