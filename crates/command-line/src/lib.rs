@@ -1,4 +1,5 @@
-//! What every groomkit program shares: exit codes, error words, Ctrl-C and progress bars.
+//! What every groomkit program shares: exit codes, error words, Ctrl-C, progress bars, and lists of numbers as values
+//! of options.
 //!
 //! ```no_run
 //! use command_line::Outcome;
@@ -11,11 +12,13 @@
 //! Words go to stderr, data to stdout; only programs use this crate.
 
 mod interrupt;
+mod numbers;
 mod outcome;
 mod progress;
 mod words;
 
 pub use interrupt::{interrupted, on_interrupt_ask};
+pub use numbers::numbers;
 pub use outcome::{Outcome, run};
 pub use progress::{Bar, progress_bar};
 pub use words::words;

@@ -1,6 +1,7 @@
 //! Values on the command line: what they may be, and what is said when they are not.
 
 use clap::ValueEnum;
+use command_line::numbers;
 use glam::{DMat4, DVec3, Vec3};
 use groom::{Expression, Ramp, UpAxis, VAxis};
 use groom_formats::Format;
@@ -87,13 +88,6 @@ pub(super) fn length(text: &str) -> Result<f32, String> {
 
 pub(super) fn step(text: &str) -> Result<f32, String> {
     factor(text)
-}
-
-/// `N` finite numbers, with commas or spaces between them.
-fn numbers<const N: usize>(text: &str) -> Option<[f64; N]> {
-    let words = text.split([',', ' ']).filter(|word| !word.is_empty());
-    let numbers: Vec<f64> = words.map(|word| word.parse().ok()).collect::<Option<_>>()?;
-    <[f64; N]>::try_from(numbers).ok().filter(|numbers| numbers.iter().all(|n| n.is_finite()))
 }
 
 pub(super) fn vector(text: &str) -> Result<DVec3, String> {

@@ -1,0 +1,113 @@
+//! Bringing the groom into the mesh's numbers.
+
+use anyhow::{Context, Result};
+use groom::{Groom, UpAxis, names};
+use groom_formats::Format;
+use moving_mesh::MovingMesh;
+
+use crate::args::Aligning;
+
+/// What a mesh's numbers mean.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Space {
+    pub(crate) up_axis: UpAxis,
+    pub(crate) meters_per_unit: f64,
+    /// Whether the file says its unit; OBJ does not.
+    pub(crate) unit_is_said: bool,
+}
+
+impl Space {
+    pub(crate) fn of(mesh: &MovingMesh, path: &std::path::Path) -> Space {
+        let is_obj = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj"));
+        Space {
+            up_axis: if mesh.is_z_up() { UpAxis::Z } else { UpAxis::Y },
+            meters_per_unit: mesh.meters_per_unit(),
+            unit_is_said: !is_obj,
+        }
+    }
+}
+
+/// Does what the options ask for, in the order of `--help`; the groom is in the mesh's numbers then.
+pub(crate) fn align(groom: &mut Groom, format: Format, space: Space, args: &Aligning) -> Result<()> {
+    // A motion of its own is not that of the mesh.
+    groom.remove_attribute(names::VELOCITY);
+    if let Some(up) = args.up {
+        groom.up_axis = up.into();
+    }
+    if let Some(matrix) = &args.matrix {
+        groom.transform(matrix).context("--matrix")?;
+        groom.up_axis = space.up_axis;
+        groom.meters_per_unit = space.meters_per_unit;
+        return Ok(());
+    }
+    let is_said = args.meters_per_unit.is_some() || says_unit(format, groom);
+    let units =
+        if is_said && space.unit_is_said { groom.meters_per_unit / space.meters_per_unit } else { 1.0 };
+    let factor = (units * args.scale.unwrap_or(1.0)) as f32;
+    if factor != 1.0 {
+        groom.scale(factor).context("--scale")?;
+    }
+    groom.turn_to(space.up_axis);
+    if let Some(offset) = args.translate {
+        groom.translate(offset).context("--translate")?;
+    }
+    if space.unit_is_said || !is_said {
+        groom.meters_per_unit = space.meters_per_unit;
+    }
+    Ok(())
+}
+
+/// Whether a file of this format says how large its unit is.
+fn says_unit(format: Format, groom: &Groom) -> bool {
+    match format {
+        Format::Usda | Format::Usdc | Format::Usdz | Format::Gltf | Format::Glb => true,
+        // Only Alembic files of ours say it; 1 is what a reader takes where nothing is said.
+        Format::Alembic => groom.meters_per_unit != 1.0,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::Parser;
+    use glam::Vec3;
+
+    use super::*;
+    use crate::args::Args;
+
+    fn aligned(options: &str, format: Format, space: Space) -> Groom {
+        let line = format!("groom-bind a --mesh b -o c.usdc {options}");
+        let args = Args::try_parse_from(line.split_whitespace()).unwrap();
+        let mut groom = Groom::new(vec![0, 1], vec![Vec3::new(1.0, 2.0, 3.0)]).unwrap();
+        groom.up_axis = UpAxis::Z;
+        groom.meters_per_unit = args.aligning.meters_per_unit.unwrap_or(0.01);
+        align(&mut groom, format, space, &args.aligning).unwrap();
+        groom
+    }
+
+    const METRES: Space = Space { up_axis: UpAxis::Y, meters_per_unit: 1.0, unit_is_said: true };
+
+    #[test]
+    fn units_are_taken_where_both_say_and_axes_turned() {
+        let root = |groom: &Groom| groom.positions()[0];
+        let turned = Vec3::new(1.0, 3.0, -2.0);
+        assert_eq!(root(&aligned("", Format::Usdc, METRES)), turned * 0.01);
+        assert_eq!(root(&aligned("", Format::Hair, METRES)), turned);
+        assert_eq!(root(&aligned("--meters-per-unit 2", Format::Hair, METRES)), turned * 2.0);
+        let unsaid = Space { unit_is_said: false, ..METRES };
+        assert_eq!(root(&aligned("", Format::Usdc, unsaid)), turned);
+        assert_eq!(aligned("", Format::Usdc, unsaid).meters_per_unit, 0.01);
+        assert_eq!(root(&aligned("--up y", Format::Hair, METRES)), Vec3::new(1.0, 2.0, 3.0));
+        assert_eq!(
+            root(&aligned("--scale 2 --translate 0,0,1", Format::Hair, METRES)),
+            Vec3::new(2.0, 6.0, -3.0)
+        );
+    }
+
+    #[test]
+    fn a_matrix_says_everything() {
+        let groom = aligned("--matrix 0,1,0,0,0,0,1,0,1,0,0,9,0,0,0,1", Format::Usdc, METRES);
+        assert_eq!(groom.positions()[0], Vec3::new(2.0, 3.0, 10.0));
+        assert_eq!((groom.up_axis, groom.meters_per_unit), (UpAxis::Y, 1.0));
+    }
+}
