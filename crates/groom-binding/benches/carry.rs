@@ -1,17 +1,18 @@
 //! Binding and carrying at the size of a head: 50,000 strands of 25 points on 60,000 triangles, and what the
 //! straightforward way costs beside it.
 //!
-//! `cargo bench -p groom-binding --bench carry [-- --write FOLDER]`
+//! `cargo bench -p groom-binding --bench carry [-- --write FOLDER] [--peers PYTHON]...`
 //!
-//! With `--write` the mesh and the points are left in FOLDER as raw little-endian arrays for `peers.py`, which times
-//! Blender and OpenUSD on them.
+//! With `--write` the mesh and the points are left in FOLDER as raw little-endian arrays. With `--peers`, `peers.py`
+//! times Blender's Surface Deform and OpenUSD's skinning on them, whichever that Python has.
 
 #![allow(clippy::print_stdout)] // figures are what a bench is for
 
 use std::f64::consts::{PI, TAU};
 use std::fs;
 use std::hint::black_box;
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::process::Command;
 use std::time::Instant;
 
 use glam::{DMat3, DQuat, DVec3, Vec3};
@@ -92,8 +93,22 @@ fn main() -> Result<()> {
         "\nroots off the mesh: at most {:.4}; plain loop and carry differ by {apart:.1e}",
         report.distance_at(1.0).unwrap_or(0.0)
     );
-    if let Some(folder) = std::env::args().skip_while(|argument| argument != "--write").nth(1) {
-        write(Path::new(&folder), &triangles, &[&rest, &poses[0]], &groom)?;
+    let given = |option| {
+        let arguments: Vec<String> = std::env::args().collect();
+        let after = arguments.windows(2).filter(|pair| pair[0] == option).map(|pair| pair[1].clone());
+        after.collect::<Vec<_>>()
+    };
+    let scratch = tempfile::tempdir()?;
+    let pythons = given("--peers");
+    let folder = given("--write").pop().map_or_else(|| scratch.path().to_owned(), PathBuf::from);
+    if !pythons.is_empty() || folder != scratch.path() {
+        write(&folder, &triangles, &[&rest, &poses[0]], &groom)?;
+    }
+    for python in pythons {
+        println!();
+        let script = concat!(env!("CARGO_MANIFEST_DIR"), "/benches/peers.py");
+        let status = Command::new(&python).arg(script).arg(&folder).status()?;
+        println!("{python}: {status}");
     }
     Ok(())
 }
@@ -225,6 +240,5 @@ fn write(folder: &Path, triangles: &[[u32; 3]], poses: &[&Pose], groom: &Groom) 
         fs::write(folder.join(name), bytes(&mut pose.positions.iter().map(|p| p.as_vec3())))?;
     }
     fs::write(folder.join("points.f32"), bytes(&mut groom.positions().iter().copied()))?;
-    println!("written to {}", folder.display());
     Ok(())
 }

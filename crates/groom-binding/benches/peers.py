@@ -1,7 +1,7 @@
 """Blender's Surface Deform and OpenUSD's skinning on the mesh and the points of the bench `carry`.
 
-    cargo bench -p groom-binding --bench carry -- --write FOLDER
-    python peers.py FOLDER [ROUNDS]
+    cargo bench -p groom-binding --bench carry -- --peers PYTHON
+    python peers.py FOLDER [ROUNDS]     on what the bench left with --write FOLDER
 
 Prints one row for each of the two that this Python has, and says what it skipped. Times are the least of ROUNDS
 (default 3): seconds of the wall, and of all of the process's threads together.

@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::root::place;
 use crate::root_frame::rest_turn;
-use crate::root_places::{self, Found, Place, root};
+use crate::root_places::{self, Found, Place};
 use crate::vertex_normals::{PoseNormals, VertexNormals};
 use crate::{Beyond, BindOptions, BindReport, BindingError, Root, RootFrame, Surface, TopologyHash};
 
@@ -33,14 +33,17 @@ impl Binding {
         options.check()?;
         surface.check()?;
         check_points(groom)?;
-        let (places, normals) =
-            rayon::join(|| root_places::find(groom, surface, options.by), || VertexNormals::of(surface));
+        let firsts = root_places::roots(groom);
+        let (places, normals) = rayon::join(
+            || root_places::find(groom, &firsts, surface, options.by),
+            || VertexNormals::of(surface),
+        );
         let places = places?;
         let normals = normals.at_pose(surface.triangles, &surface.rest.positions);
         let bound: Vec<(Root, f64)> = places
             .par_iter()
             .enumerate()
-            .map(|(strand, place)| bind(groom, surface, &normals, strand, place))
+            .map(|(strand, place)| bind(firsts[strand], surface, &normals, place))
             .collect();
         let distances = bound.iter().map(|(_, distance)| *distance).collect();
         let mut report = BindReport::of(surface.size(), distances, options);
@@ -51,7 +54,7 @@ impl Binding {
         report.ambiguous = listed(Found::AmongOthers);
         report.outside = listed(Found::Nearby);
         let mut roots: Vec<Root> = bound.into_iter().map(|(root, _)| root).collect();
-        apply_limit(groom, &mut roots, &mut report, options.beyond);
+        apply_limit(&firsts, &mut roots, &mut report, options.beyond);
         report.without_frame = roots.iter().filter(|root| root.facing.is_none()).count();
         let topology = TopologyHash::of(surface.rest.positions.len(), surface.triangles);
         Ok((Binding { roots, topology }, report))
@@ -115,10 +118,9 @@ fn check_points(groom: &Groom) -> Result<(), BindingError> {
 
 /// The root bound to its place, and how far it is from it.
 fn bind(
-    groom: &Groom,
+    root: DVec3,
     surface: &Surface<'_>,
     normals: &PoseNormals<'_>,
-    strand: usize,
     &Place { triangle, barycentrics, .. }: &Place,
 ) -> (Root, f64) {
     let corners = surface.corners(&surface.rest.positions, triangle);
@@ -128,7 +130,7 @@ fn bind(
         None => (DQuat::IDENTITY, None),
     };
     let origin = place(corners, barycentrics);
-    let offset = root(groom, strand) - origin;
+    let offset = root - origin;
     let distance = offset.length();
     let height = if offset.dot(rotation * DVec3::Y) < 0.0 { -distance } else { distance };
     let rest = RootFrame { origin, rotation };
@@ -136,7 +138,7 @@ fn bind(
 }
 
 /// Does what is to be done with the strands beyond the limit.
-fn apply_limit(groom: &Groom, roots: &mut Vec<Root>, report: &mut BindReport, beyond: Beyond) {
+fn apply_limit(firsts: &[DVec3], roots: &mut Vec<Root>, report: &mut BindReport, beyond: Beyond) {
     if report.beyond.is_empty() {
         return;
     }
@@ -145,7 +147,7 @@ fn apply_limit(groom: &Groom, roots: &mut Vec<Root>, report: &mut BindReport, be
         Beyond::Snap => {
             for &strand in &report.beyond {
                 let snapped = &mut roots[strand as usize];
-                snapped.rest.origin = root(groom, strand as usize);
+                snapped.rest.origin = firsts[strand as usize];
                 snapped.height = 0.0;
             }
         }

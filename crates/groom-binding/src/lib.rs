@@ -28,6 +28,7 @@ mod root_frames;
 mod root_places;
 mod segment_lengths;
 mod shutter;
+mod space_curve;
 pub mod stability;
 mod stencil;
 mod strand_blocks;

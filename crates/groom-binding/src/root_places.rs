@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use crate::root::place;
 use crate::root_frame::has_area;
-use crate::surface::bounds;
+use crate::space_curve::along_a_curve;
 use crate::surface_tree::{Nearest, Search, SurfaceTree};
 use crate::{BindBy, BindingError, ROOT_TRIANGLE, Surface, closest_point};
 
@@ -35,8 +35,13 @@ const BLOCK: usize = 256;
 /// outside a triangle a coordinate may be and still be in it, in sizes of the texture.
 const APART: f64 = 1e-6;
 
-/// A place for every strand. There must be a triangle when there is a strand.
-pub(crate) fn find(groom: &Groom, surface: &Surface<'_>, by: BindBy) -> Result<Vec<Place>, BindingError> {
+/// A place for every strand, whose first points are `roots`. There must be a triangle when there is a strand.
+pub(crate) fn find(
+    groom: &Groom,
+    roots: &[DVec3],
+    surface: &Surface<'_>,
+    by: BindBy,
+) -> Result<Vec<Place>, BindingError> {
     if groom.strand_count() == 0 {
         return Ok(Vec::new());
     }
@@ -45,16 +50,16 @@ pub(crate) fn find(groom: &Groom, surface: &Surface<'_>, by: BindBy) -> Result<V
     match by {
         BindBy::Nearest => {
             let tree = tree_of(surface, corners);
-            in_blocks(groom, |strand, search| {
-                let nearest = tree.nearest(root(groom, strand), search);
+            in_blocks(roots, |strand, search| {
+                let nearest = tree.nearest(roots[strand], search);
                 nearest.map(|n| from_nearest(n, Found::Surely)).ok_or_else(no_triangle)
             })
         }
-        BindBy::RootUv => by_uv(groom, surface),
+        BindBy::RootUv => by_uv(groom, roots, surface),
         BindBy::RootTriangle => {
             let given = given_triangles(groom, surface.triangles.len())?;
-            in_blocks(groom, |strand, _| {
-                let (triangle, root) = (given[strand], root(groom, strand));
+            in_blocks(roots, |strand, _| {
+                let (triangle, root) = (given[strand], roots[strand]);
                 let on = closest_point::to_origin(corners(triangle).map(|p| p - root));
                 Ok(Place { triangle, barycentrics: on.barycentrics, found: Found::Surely })
             })
@@ -70,9 +75,10 @@ fn no_triangle() -> BindingError {
     BindingError::invalid("mesh", "no triangle", "one or more, to bind strands to")
 }
 
-/// The first point of a strand.
-pub(crate) fn root(groom: &Groom, strand: usize) -> DVec3 {
-    groom.positions()[groom.offsets()[strand] as usize].as_dvec3()
+/// The first point of every strand: once, as they lie far apart in memory.
+pub(crate) fn roots(groom: &Groom) -> Vec<DVec3> {
+    let firsts = groom.offsets().iter().take(groom.strand_count());
+    firsts.map(|&first| groom.positions()[first as usize].as_dvec3()).collect()
 }
 
 /// Asks for the place of every strand, in parallel.
@@ -80,10 +86,10 @@ pub(crate) fn root(groom: &Groom, strand: usize) -> DVec3 {
 /// Strands are taken in the order of a curve through space: the last answer is then near the next, wherever in the
 /// groom a strand is.
 fn in_blocks(
-    groom: &Groom,
+    roots: &[DVec3],
     find: impl Fn(usize, &mut Search) -> Result<Place, BindingError> + Sync,
 ) -> Result<Vec<Place>, BindingError> {
-    let order = along_a_curve(groom);
+    let order = along_a_curve(roots);
     let found: Result<Vec<Vec<(u32, Place)>>, BindingError> = order
         .par_chunks(BLOCK)
         .map(|strands| {
@@ -93,35 +99,11 @@ fn in_blocks(
         })
         .collect();
     let nowhere = Place { triangle: 0, barycentrics: DVec3::X, found: Found::Surely };
-    let mut places = vec![nowhere; groom.strand_count()];
+    let mut places = vec![nowhere; roots.len()];
     for (strand, place) in found?.into_iter().flatten() {
         places[strand as usize] = place;
     }
     Ok(places)
-}
-
-/// The strands by where their roots are on a Morton curve of 1024 steps a side.
-fn along_a_curve(groom: &Groom) -> Vec<u32> {
-    let roots = || (0..groom.strand_count()).map(|strand| root(groom, strand));
-    let (low, high) = bounds(roots());
-    let scale = 1023.0 / (high - low).max_element().max(f64::MIN_POSITIVE);
-    let key = |at: DVec3| {
-        // Not-a-number, of a groom of one point, becomes 0.
-        let cell = (at - low) * scale;
-        spread(cell.x as u32) | spread(cell.y as u32) << 1 | spread(cell.z as u32) << 2
-    };
-    let mut order: Vec<(u32, u32)> = roots().map(key).zip(0..).collect();
-    order.sort_unstable();
-    order.into_iter().map(|(_, strand)| strand).collect()
-}
-
-/// Ten bits with two empty ones after each.
-fn spread(bits: u32) -> u32 {
-    let bits = bits.min(1023);
-    let bits = (bits | bits << 16) & 0x0300_00ff;
-    let bits = (bits | bits << 8) & 0x0300_f00f;
-    let bits = (bits | bits << 4) & 0x030c_30c3;
-    (bits | bits << 2) & 0x0924_9249
 }
 
 /// The tree over the triangles that have an area; over all when none has. Strands on a triangle without one would
@@ -136,7 +118,7 @@ fn tree_of(surface: &Surface<'_>, corners: impl Fn(u32) -> [DVec3; 3]) -> Surfac
     SurfaceTree::new(sound.into_iter().map(|triangle| (corners(triangle), triangle)).collect())
 }
 
-fn by_uv(groom: &Groom, surface: &Surface<'_>) -> Result<Vec<Place>, BindingError> {
+fn by_uv(groom: &Groom, roots: &[DVec3], surface: &Surface<'_>) -> Result<Vec<Place>, BindingError> {
     let expected = "one a vertex, to bind by";
     let uvs = surface.uvs.ok_or_else(|| BindingError::invalid("mesh", "no texture coordinates", expected))?;
     if let Some(vertex) = uvs.iter().position(|uv| !uv.is_finite()) {
@@ -149,8 +131,8 @@ fn by_uv(groom: &Groom, surface: &Surface<'_>) -> Result<Vec<Place>, BindingErro
     let tree = tree_of(surface, in_texture);
     let positions = &surface.rest.positions;
     let (in_texture, in_space) = (APART * tree.size(), APART * surface.size());
-    in_blocks(groom, |strand, search| {
-        let (uv, root) = (flat(given[strand]), root(groom, strand));
+    in_blocks(roots, |strand, search| {
+        let (uv, root) = (flat(given[strand]), roots[strand]);
         let nearest = tree.nearest(uv, search).ok_or_else(no_triangle)?;
         let distance = nearest.distance_squared.sqrt();
         let mut found: Vec<(f64, u32, DVec3, Nearest)> = tree

@@ -5,7 +5,7 @@ use anyhow::Result;
 use crate::shell::{cargo, step};
 
 /// Every bench program of the workspace, low to high.
-const BENCHES: [(&str, &str); 13] = [
+const BENCHES: [(&str, &str); 14] = [
     ("cyhair", "read"),
     ("usd-layer", "read"),
     ("groom-formats", "convert"),
@@ -17,6 +17,7 @@ const BENCHES: [(&str, &str); 13] = [
     ("strand-tracing", "rays"),
     ("strand-tracing", "motion"),
     ("groom-binding", "carry"),
+    ("groom-binding", "motion"),
     ("hair-render-cli", "straight_hair"),
     ("hair-render-cli", "motion_samples"),
 ];
