@@ -7,6 +7,8 @@ from pxr import Sdf, Usd, UsdGeom
 
 STAGE_METADATA = ("defaultPrim", "upAxis", "metersPerUnit", "timeCodesPerSecond")
 EXTENT_TOLERANCE = 1e-5
+# How near a ratio of speeds must be to what a wrong unit or sign makes of it.
+RATIO_TOLERANCE = 0.2
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,8 @@ def _check_curves(curves):
         yield from _check_extent(curves, path, time, points)
         yield from _check_primvars(curves, path, time, len(counts), len(points))
         yield from _check_motion(curves, path, time, len(points))
+    yield from _check_velocities(curves, path)
+    yield from _check_skinning(curves, path)
 
 
 def _check_tokens(curves, path):
@@ -155,3 +159,44 @@ def _check_motion(curves, path, time, point_count):
         if attribute.GetTimeSamples() != point_times:
             message = "samples at other times than the points': they are ignored"
             yield Finding("error", "motion", str(attribute.GetPath()), message)
+
+
+def _check_velocities(curves, path):
+    """Velocities against what the points do between samples: their sign and unit."""
+    points, velocities = curves.GetPointsAttr(), curves.GetVelocitiesAttr()
+    times = points.GetTimeSamples()
+    rate = curves.GetPrim().GetStage().GetTimeCodesPerSecond()
+    if len(times) < 2 or velocities.GetTimeSamples() != times or rate <= 0:
+        return
+    moved, said = 0.0, 0.0
+    for before, after in [(times[0], times[1]), (times[-2], times[-1])]:
+        ends = [np.asarray(values.Get(time), float) for values in (points, velocities) for time in (before, after)]
+        if len({end.shape for end in ends}) != 1:
+            return
+        step = (ends[1] - ends[0]) * rate / (after - before)
+        moved += (step * step).sum()
+        said += (step * 0.5 * (ends[2] + ends[3])).sum()
+    if moved == 0:
+        return
+    ratio = said / moved
+    place = str(velocities.GetPath())
+    if abs(ratio + 1) < RATIO_TOLERANCE:
+        yield Finding("error", "velocity", place, "velocities point against the way the points move")
+    elif rate > 2 and abs(ratio * rate - 1) < RATIO_TOLERANCE:
+        message = f"velocities are units per time code, expected per second: {rate:g} times as large"
+        yield Finding("error", "velocity", place, message)
+
+
+def _check_skinning(curves, path):
+    """What UsdSkel needs of curves; where it is missing, nothing is skinned and nobody says so."""
+    api = UsdGeom.PrimvarsAPI(curves)
+    indices, weights = api.GetPrimvar("skel:jointIndices"), api.GetPrimvar("skel:jointWeights")
+    for primvar in (indices, weights):
+        if primvar.HasValue() and primvar.GetInterpolation() not in ("vertex", "constant"):
+            message = f"{primvar.GetInterpolation()} joints skin nothing; expected vertex or constant"
+            yield Finding("error", "skinning", f"{path}.{primvar.GetName()}", message)
+    if indices.HasValue() and not curves.GetPrim().HasAPI("SkelBindingAPI"):
+        yield Finding("error", "skinning", path, "SkelBindingAPI is not applied")
+    if indices.HasValue() and indices.GetElementSize() != weights.GetElementSize():
+        message = f"{indices.GetElementSize()} joints a point, but {weights.GetElementSize()} weights"
+        yield Finding("error", "skinning", path, message)

@@ -56,6 +56,41 @@ class Rules(unittest.TestCase):
                 spoil(curves)
                 self.assertIn(rule, self.rules(stage))
 
+    def moving_stage(self, speed):
+        """Points that move 2 units a second, and say `speed`."""
+        stage, curves = good_stage()
+        still = [(0, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (1, 2, 0)]
+        velocities = curves.CreateVelocitiesAttr()
+        for time in (1, 2, 4):
+            moved = [(x + 2 * time / 24, y, z) for x, y, z in still]
+            curves.GetPointsAttr().Set(moved, time)
+            velocities.Set([(speed, 0, 0)] * 5, time)
+            curves.GetExtentAttr().Set([(-1, -1, -1), (3, 3, 1)], time)
+        return stage
+
+    def test_velocities_against_the_motion_or_per_frame_are_found(self):
+        self.assertEqual(self.rules(self.moving_stage(2)), set())
+        self.assertEqual(self.rules(self.moving_stage(2.2)), set())
+        for wrong in (-2, 2 / 24):
+            with self.subTest(wrong):
+                self.assertEqual(self.rules(self.moving_stage(wrong)), {"velocity"})
+
+    def test_joints_that_skin_nothing_are_found(self):
+        cases = [("uniform", True, (1, 1)), ("vertex", False, (1, 1)), ("vertex", True, (1, 2))]
+        for interpolation, applied, sizes in cases:
+            with self.subTest(interpolation):
+                stage, curves = good_stage()
+                if applied:
+                    curves.GetPrim().AddAppliedSchema("SkelBindingAPI")
+                count = 2 if interpolation == "uniform" else 5
+                api = UsdGeom.PrimvarsAPI(curves)
+                for name, kind, value, size in (
+                    ("skel:jointIndices", Sdf.ValueTypeNames.IntArray, 0, sizes[0]),
+                    ("skel:jointWeights", Sdf.ValueTypeNames.FloatArray, 1.0, sizes[1]),
+                ):
+                    api.CreatePrimvar(name, kind, interpolation, size).Set([value] * count * size)
+                self.assertEqual(self.rules(stage), {"skinning"})
+
     def test_unset_interpolation_is_found(self):
         stage, curves = good_stage()
         curves.GetWidthsAttr().ClearMetadata("interpolation")

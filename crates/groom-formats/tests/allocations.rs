@@ -7,7 +7,9 @@ mod support;
 
 use glam::Vec3;
 use groom::{Domain, Groom, Values, names};
-use groom_formats::{Format, ReadOptions, read_from};
+use groom_formats::{
+    Format, Frame, MotionOptions, ReadOptions, WriteOptions, read_from, read_moving, write_animation,
+};
 use peak_alloc::PeakAlloc;
 use support::{set, to_bytes};
 
@@ -115,10 +117,51 @@ fn greedy() {
     check(Format::Data, &empty, "empty strands");
 }
 
+/// Frames on their way into a file and out of it: as many again take no more memory.
+fn motion() {
+    let folder = tempfile::tempdir().unwrap();
+    let groom = groom(100, 200);
+    for ending in ["usda", "usdc", "usdz", "abc", "glb"] {
+        let path = folder.path().join(format!("a.{ending}"));
+        let write = |count: u32| {
+            let mut frames = (0..count).map(|frame| {
+                let moved = |p: &Vec3| *p + Vec3::new(p.x.sin(), 1.0, 0.0) * frame as f32;
+                let positions: Vec<Vec3> = groom.positions().iter().map(moved).collect();
+                let velocities = Some(positions.clone());
+                Ok(Frame { time: frame.into(), positions, velocities, ..Frame::default() })
+            });
+            MEMORY.reset_peak_usage();
+            let before = MEMORY.current_usage();
+            let motion = MotionOptions::at_rate(24.0);
+            write_animation(&groom, &mut frames, &motion, &path, &WriteOptions::default()).unwrap();
+            MEMORY.peak_usage().saturating_sub(before)
+        };
+        let (few, many) = (write(4), write(40));
+        // A frame's description in the document of a glTF takes a kilobyte; the frame itself, 240.
+        let described = if ending == "glb" { 36 << 10 } else { 0 };
+        assert!(many <= few + BESIDE + described, "{ending}: {few} bytes for 4 frames, {many} for 40");
+        if ending == "glb" {
+            continue;
+        }
+        let moving = read_moving(&path, &ReadOptions::default()).unwrap();
+        let read = |frames: u32| {
+            MEMORY.reset_peak_usage();
+            let before = MEMORY.current_usage();
+            for frame in 0..frames {
+                assert_eq!(moving.at(f64::from(frame) + 0.5).unwrap().positions.len(), groom.point_count());
+            }
+            MEMORY.peak_usage().saturating_sub(before)
+        };
+        let (few, many) = (read(4), read(39));
+        assert!(many <= few + BESIDE, "{ending}: {few} bytes for reading 4 frames, {many} for 39");
+    }
+}
+
 // One test: the allocator counts for the whole process.
 #[test]
 fn memory_keeps_to_four_times_the_file() {
     lies();
     sound();
     greedy();
+    motion();
 }

@@ -23,6 +23,11 @@
 //! takes all scopes and gets the groom's own; there `groom_width` stands beside them (stored once), which
 //! wins in Unreal and is not scaled on import, so it is left out elsewhere.
 //!
+//! **Motion.** Times are seconds at the frame rate that the archive's metadata says (`_ai_DCC_FPS`). Velocities are
+//! units per second; accelerations have no place and are left out with a warning. An origin is an Xform above the
+//! curves, `/origin/groom`, in 64 bits. Blender 5.0 reads no velocities of curves, and takes seconds for frames of its
+//! scene's rate, whatever the archive says.
+//!
 //! **Reading** takes every Curves object (`AbcGeom_Curve_v2`) below its Xforms; cubic ones become polylines
 //! (`ReadOptions::curve_error`). Hermite, power and variable order curves are refused.
 

@@ -13,7 +13,8 @@
 //! Joints ([`write_rigged`](crate::write_rigged)) become a skin: JOINTS_0 and WEIGHTS_0, the same for all vertices of a
 //! strand, and keys for what changes of every joint. Frames of positions ([`write_animation`](crate::write_animation))
 //! become morph targets, 12 bytes a point and frame, the first frame being the mesh. An origin is the translation of a
-//! node, which readers keep in 32 bits: the strands keep their shape, the place is rounded.
+//! node, which readers keep in 32 bits: the strands keep their shape, the place is rounded. Blender 5.0's bones hold no
+//! scale where they are at rest: strands of a joint that is scaled or mirrored in its bind pose come out wrong there.
 //!
 //! # Options
 //!

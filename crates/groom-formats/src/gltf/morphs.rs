@@ -73,10 +73,12 @@ pub(crate) fn write_animation(
         plan.warnings.push(Warning::ManyMorphTargets { format, targets: targets.len(), bytes });
     }
     let seconds = seconds(&times, motion.frame_rate, file)?;
-    let weights = weights(targets.len());
-    let (times, weights) = (plan.tail.push_times(seconds), plan.tail.push(Type::Scalar, weights));
+    let keys = (!targets.is_empty()).then(|| {
+        let weights = weights(targets.len());
+        (plan.tail.push_times(seconds), plan.tail.push(Type::Scalar, weights))
+    });
     let origin = skin::change(groom).transform_point3(motion.origin);
-    plan.follow(Moving::Morphs(Morphs { origin, targets, times, weights }), format, file)?;
+    plan.follow(Moving::Morphs(Morphs { origin, targets, keys }), format, file)?;
     files::write(plan, format, path, file)
 }
 

@@ -20,8 +20,8 @@ pub(super) struct Morphs {
     pub(super) origin: DVec3,
     /// Places among the arrays of the tail.
     pub(super) targets: Vec<usize>,
-    pub(super) times: usize,
-    pub(super) weights: usize,
+    /// Times and weights; one frame has none.
+    pub(super) keys: Option<(usize, usize)>,
 }
 
 /// Frames as seconds in 32 bits, as glTF has its keys: from 0 on, rising.

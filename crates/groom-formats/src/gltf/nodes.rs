@@ -32,9 +32,11 @@ pub(super) fn skin(
         keys.add(node(index), Property::Scale, moves.scale.1);
     }
     let placed = skin.origin.as_vec3();
-    if placed != glam::Vec3::ZERO {
+    let is_placed = placed != glam::Vec3::ZERO;
+    // Joints of a skin must have one root, which need not be a joint.
+    if is_placed || tops.len() > 1 {
         let name = Some("Origin".to_owned());
-        let translation = Some(placed.to_array());
+        let translation = is_placed.then_some(placed.to_array());
         tops = vec![root.push(Node { name, translation, children: Some(tops), ..Node::default() })];
     }
     let joints = (0..skin.rig.joints.len()).map(node).collect();
@@ -66,29 +68,30 @@ fn joint_node(name: &str, moves: &JointKeys, children: Vec<Index<Node>>) -> Node
 
 /// Adds the keys of the weights of the mesh at `node`.
 pub(super) fn morphs(root: &mut Root, node: Index<Node>, morphs: &Morphs, accessors: &[Index<Accessor>]) {
-    let mut keys = Keys::new(accessors, morphs.times);
-    let weights = (!morphs.targets.is_empty()).then_some(morphs.weights);
-    keys.add(node, Property::MorphTargetWeights, weights);
+    let Some((times, weights)) = morphs.keys else { return };
+    let mut keys = Keys::new(accessors, Some(times));
+    keys.add(node, Property::MorphTargetWeights, Some(weights));
     keys.finish(root);
 }
 
 /// An animation being put together.
 struct Keys<'a> {
     accessors: &'a [Index<Accessor>],
-    times: usize,
+    times: Option<usize>,
     channels: Vec<Channel>,
     samplers: Vec<Sampler>,
 }
 
 impl<'a> Keys<'a> {
-    fn new(accessors: &'a [Index<Accessor>], times: usize) -> Self {
+    fn new(accessors: &'a [Index<Accessor>], times: Option<usize>) -> Self {
         Keys { accessors, times, channels: Vec::new(), samplers: Vec::new() }
     }
 
     /// Keys of a node's property, if there are any.
     fn add(&mut self, node: Index<Node>, path: Property, values: Option<usize>) {
         let values = values.and_then(|values| self.accessors.get(values));
-        let (Some(&input), Some(&output)) = (self.accessors.get(self.times), values) else { return };
+        let times = self.times.and_then(|times| self.accessors.get(times));
+        let (Some(&input), Some(&output)) = (times, values) else { return };
         let sampler = Index::new(self.samplers.len() as u32);
         let interpolation = Valid(Interpolation::Linear);
         self.samplers.push(Sampler { extensions: None, extras: None, input, interpolation, output });

@@ -21,8 +21,8 @@ pub(super) struct Skin<'a> {
     /// Where the joints are measured from, y-up and in metres.
     pub(super) origin: DVec3,
     pub(super) joints: Vec<JointKeys>,
-    /// Places among the arrays of the tail.
-    pub(super) times: usize,
+    /// Places among the arrays of the tail; where nothing moves there are no times.
+    pub(super) times: Option<usize>,
     pub(super) inverse_binds: usize,
 }
 
@@ -32,6 +32,12 @@ pub(super) struct JointKeys {
     /// x, y, z, w.
     pub(super) rotation: ([f32; 4], Option<usize>),
     pub(super) scale: ([f32; 3], Option<usize>),
+}
+
+impl JointKeys {
+    fn moves(&self) -> bool {
+        self.translation.1.is_some() || self.rotation.1.is_some() || self.scale.1.is_some()
+    }
 }
 
 impl Skin<'_> {
@@ -84,8 +90,8 @@ pub(crate) fn write_rigged(
         matrix.to_cols_array()
     });
     let inverse_binds = plan.tail.push(Type::Mat4, inverse_binds.collect());
-    let times = plan.tail.push_times(times);
-    let joints = tracks.joints.iter().map(|track| keys(track, &mut plan)).collect();
+    let joints: Vec<JointKeys> = tracks.joints.iter().map(|track| keys(track, &mut plan)).collect();
+    let times = joints.iter().any(JointKeys::moves).then(|| plan.tail.push_times(times));
     let origin = change.transform_point3(motion_options.origin);
     plan.follow(Moving::Skin(Skin { rig, origin, joints, times, inverse_binds }), format, file)?;
     files::write(plan, format, path, file)

@@ -1,5 +1,7 @@
 //! Grooms that move, through every format that holds motion and back.
 
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests
+
 use std::path::Path;
 
 use glam::{DVec3, Vec3};

@@ -15,12 +15,17 @@
 //! The curves are polylines, as grooms are, so `type` is `linear`; `basis` and `wrap` then mean nothing
 //! but are authored too, because readers differ on the fallbacks.
 //!
-//! In motion, `points`, `extent` and `velocities` are sampled at the same times, as UsdGeom wants; all else is
-//! said once.
+//! In motion, `points`, `extent`, `velocities` and `accelerations` are sampled at the same times: UsdGeom passes over
+//! velocities and accelerations of other times. All else is said once. An origin is the curves' `xformOp:translate`, and
+//! points and extent are local to it.
+//!
+//! Velocities are units per second, whatever `timeCodesPerSecond` is. Blender 5.0 keeps them as they are in the attribute
+//! `velocity` of its curves, in the axes of the prim, and Cycles blurs by them over a frame of the scene's rate, so the
+//! scene must have the stage's; it takes a time code for a frame.
 //!
 //! Joints ([`write_rigged`](crate::write_rigged)) are UsdSkel: `/Groom` is a SkelRoot, `/Groom/Skeleton` has a
 //! SkelAnimation below it, and the curves have `primvars:skel:jointIndices` and `jointWeights` per vertex, because of
-//! values per curve (`uniform`) UsdSkel bakes nothing and does not say so.
+//! values per curve (`uniform`) UsdSkel bakes nothing and does not say so. Its scales have 16 bits.
 //!
 //! # Dialects
 //!

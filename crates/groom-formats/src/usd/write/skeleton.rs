@@ -102,7 +102,11 @@ impl Skeleton {
         let weights = Array { curves, rows: Rows::Floats(&weights), shape: Shape::FIXED };
         sink.attribute(per_point("primvars:skel:jointWeights", "float[]"), Content::Array(&weights))?;
         let identity = Content::Single(Single::Matrix4(DMat4::IDENTITY.to_cols_array()));
-        sink.attribute(Declaration::new("matrix4d", "primvars:skel:geomBindTransform"), identity)?;
+        let bind = Declaration {
+            interpolation: Some("constant"),
+            ..Declaration::new("matrix4d", "primvars:skel:geomBindTransform")
+        };
+        sink.attribute(bind, identity)?;
         sink.relationship("skel:skeleton", SKELETON)
     }
 
