@@ -214,7 +214,7 @@ fn in_gltf(point: DVec3) -> DVec3 {
 }
 
 fn give(frames: &[RigFrame]) -> impl Iterator<Item = Result<RigFrame, FormatError>> + use<> {
-    frames.to_vec().into_iter().map(Ok)
+    Vec::from(frames).into_iter().map(Ok)
 }
 
 fn assert_near(found: &[DVec3], expected: &[DVec3], tolerance: f64, what: &str) {
