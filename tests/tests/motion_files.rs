@@ -164,7 +164,12 @@ fn usd_core_skins_strands_to_where_their_animation_is() {
                 let warnings = write_rig(&groom, &rig, &frames, &motion, &path, &WriteOptions::default());
                 assert_eq!(warnings, []);
                 let baked = name("baked", "usdc");
-                usd.bake(&path, &baked, BakeOptions { frames: Some((0.0, 3.0)), step: Some(0.5) }).unwrap();
+                usd.bake(
+                    &path,
+                    &baked,
+                    BakeOptions { frames: Some((0.0, 3.0)), step: Some(0.5), ..BakeOptions::default() },
+                )
+                .unwrap();
                 let (baked, moving) =
                     [&baked, &moving].map(|path| read_moving(path, &ReadOptions::default()).unwrap()).into();
                 for frame in &expected {
