@@ -59,3 +59,27 @@ fn wrong_options_end_with_2() {
         assert!(!output.stderr.is_empty() && output.stdout.is_empty());
     }
 }
+
+#[test]
+fn fur_grows_on_a_mesh() {
+    let folder = std::env::temp_dir().join(format!("groom-samples-fur-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    assert!(run(&["head", "-o", "head.obj"], &folder).status.success());
+    let fur = ["fur", "--mesh", "head.obj", "--strands", "200", "--towards", "0,-1,-0.2", "-o", "fur.hair"];
+    let output = run(&fur, &folder);
+    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+    let file = HairFile::open(folder.join("fur.hair")).unwrap().file;
+    assert_eq!((file.header.hair_count, file.header.point_count), (200, 1600));
+    // The head is about 20 cm tall, and so is its fur: the mesh's own numbers.
+    let points = file.points.unwrap();
+    let lowest = points.iter().map(|p| p[1]).fold(f32::INFINITY, f32::min);
+    assert!((-0.13..-0.1).contains(&lowest), "{lowest}");
+    for wrong in [
+        &["fur", "--mesh", "none.obj", "-o", "x.hair"][..],
+        &["fur", "--mesh", "head.obj", "--towards", "1,2", "-o", "x.hair"],
+    ] {
+        assert_eq!(run(wrong, &folder).status.code(), Some(2), "{wrong:?}");
+    }
+    assert!(!folder.join("x.hair").exists());
+    std::fs::remove_dir_all(folder).unwrap();
+}
