@@ -36,6 +36,7 @@
 
 mod aov;
 mod area_light;
+mod blur;
 mod bounds;
 mod camera;
 mod color_match;
@@ -81,6 +82,7 @@ mod tone_map;
 
 pub use aov::{Aov, AovSet};
 pub use area_light::AreaLight;
+pub use blur::{Blur, Movement};
 pub use bounds::Bounds;
 pub use camera::Camera;
 pub use color_match::{ColorMatch, ColorMatching, match_color};

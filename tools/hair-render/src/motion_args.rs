@@ -3,7 +3,7 @@
 use std::str::FromStr;
 
 use clap::ValueEnum;
-use hair_render::{RenderError, Shutter, ShutterOffset, ShutterShape};
+use hair_render::{Blur, RenderError, Shutter, ShutterOffset, ShutterShape};
 
 use crate::args::Numbers;
 
@@ -33,7 +33,7 @@ pub struct MotionArgs {
     pub motion_samples: Option<u16>,
     /// What strands are blurred by [default: the best that the file has, the last of these]
     #[arg(long, value_enum)]
-    pub blur: Option<Blur>,
+    pub blur: Option<BlurBy>,
     /// Which animation moves the meshes, by name or number from 0 (glTF) [default: the first]
     #[arg(long, value_name = "NAME")]
     pub mesh_animation: Option<String>,
@@ -96,7 +96,7 @@ pub enum Offset {
 
 /// What strands are blurred by.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum Blur {
+pub enum BlurBy {
     /// Nothing is: strands, meshes and camera stand still
     Off,
     /// The positions that the file has at different times
@@ -105,6 +105,17 @@ pub enum Blur {
     Velocities,
     /// Velocities and accelerations
     Accelerations,
+}
+
+impl From<BlurBy> for Blur {
+    fn from(by: BlurBy) -> Self {
+        match by {
+            BlurBy::Off => Blur::Off,
+            BlurBy::Positions => Blur::Positions,
+            BlurBy::Velocities => Blur::Velocities,
+            BlurBy::Accelerations => Blur::Accelerations,
+        }
+    }
 }
 
 impl MotionArgs {
@@ -124,7 +135,7 @@ impl MotionArgs {
 
     /// Whether anything is to be blurred.
     pub fn blurs(&self) -> bool {
-        self.blur != Some(Blur::Off)
+        self.blur != Some(BlurBy::Off)
     }
 
     /// The first option that moves the camera, if any was given.

@@ -6,9 +6,9 @@ use anyhow::{Result, bail};
 use glam::Vec3;
 use groom::{Domain, Groom, Values, names};
 use groom_formats::{Format, Loaded, MovingGroom, ReadOptions};
-use hair_render::{Motion, Shutter};
+use hair_render::{Blur, Motion, Movement, Shutter};
 
-use crate::motion_args::{Blur, MotionArgs};
+use crate::motion_args::MotionArgs;
 
 /// Frames a second where nobody says.
 const USUAL_RATE: f64 = 24.0;
@@ -57,44 +57,36 @@ pub fn read(path: &Path, options: ReadOptions, args: &MotionArgs) -> Result<Read
 }
 
 impl Read {
+    fn movement(&self) -> Movement<'_> {
+        Movement {
+            positions: self.loaded.groom.positions(),
+            velocities: self.has.velocities.as_deref(),
+            accelerations: self.has.accelerations.as_deref(),
+            other_times: self.has.times > 1,
+        }
+    }
+
     fn blur(&self, args: &MotionArgs) -> Blur {
-        args.blur.unwrap_or_else(|| self.has.best())
+        args.blur.map_or_else(|| self.movement().best(), Blur::from)
     }
 
     /// At how many times through the shutter things are looked at: the groom and what stands beside it alike, or
     /// they would come apart between them.
     pub fn keys(&self, args: &MotionArgs) -> usize {
-        let usual = if self.blur(args) == Blur::Accelerations { 3 } else { 2 };
-        args.motion_samples.map_or(usual, usize::from)
+        args.motion_samples.map_or(self.blur(args).usual_keys(), usize::from)
     }
 
     /// How the strands move while the shutter is open.
     pub fn motion(&self, path: &Path, args: &MotionArgs, shutter: &Shutter, rate: f64) -> Result<Motion> {
-        let positions = self.loaded.groom.positions();
-        let seconds = shutter.seconds(rate)?;
-        let keys = self.keys(args);
-        let Has { velocities, accelerations, .. } = &self.has;
-        match self.blur(args) {
-            Blur::Off => Ok(Motion::STILL),
-            Blur::Positions => match (&self.motion, self.frame) {
-                (Some(motion), Some(frame)) if self.has.times > 1 => {
-                    let times = shutter.key_times(frame, keys)?;
-                    let at = |time: f64| Ok(motion.at(time)?.positions);
-                    Ok(Motion::keys(times.into_iter().map(at).collect::<Result<_>>()?)?)
-                }
-                _ => self.lacks(path, "positions", "positions at different times"),
-            },
-            Blur::Velocities => match velocities {
-                Some(velocities) => Ok(Motion::velocities(positions, velocities, seconds)?),
-                None => self.lacks(path, "velocities", "velocities"),
-            },
-            Blur::Accelerations => match (velocities, accelerations) {
-                (Some(velocities), Some(accelerations)) => {
-                    Ok(Motion::accelerations(positions, velocities, accelerations, seconds, keys)?)
-                }
-                _ => self.lacks(path, "accelerations", "velocities and accelerations"),
-            },
+        let (movement, blur) = (self.movement(), self.blur(args));
+        if !movement.allows(blur) {
+            return self.refuse(path, blur);
         }
+        let at = |time: f64| match &self.motion {
+            Some(motion) => Ok(motion.at(time)?.positions),
+            None => bail!("{}: nothing in it moves", path.display()),
+        };
+        movement.motion(blur, shutter, (self.frame.unwrap_or(0.0), rate), self.keys(args), at)
     }
 
     /// Frames a second, as the groom says.
@@ -102,26 +94,21 @@ impl Read {
         self.loaded.frame_rate
     }
 
-    fn lacks(&self, path: &Path, blur: &str, what: &str) -> Result<Motion> {
-        let best = match self.has.best() {
-            Blur::Off => "off: nothing in it moves (.usda, .usdc, .usdz and .abc hold motion)".to_owned(),
-            Blur::Positions => "positions".to_owned(),
-            Blur::Velocities if self.has.times > 1 => "velocities or positions".to_owned(),
-            Blur::Velocities => "velocities".to_owned(),
-            Blur::Accelerations => "accelerations, velocities or positions".to_owned(),
+    fn refuse(&self, path: &Path, blur: Blur) -> Result<Motion> {
+        let (asked, missing) = match blur {
+            Blur::Off => ("off", "motion"),
+            Blur::Positions => ("positions", "positions at different times"),
+            Blur::Velocities => ("velocities", "velocities"),
+            Blur::Accelerations => ("accelerations", "velocities and accelerations"),
         };
-        bail!("--blur {blur}: {} has no {what}; expected {best}", path.display())
-    }
-}
-
-impl Has {
-    fn best(&self) -> Blur {
-        match (&self.velocities, &self.accelerations) {
-            (Some(_), Some(_)) => Blur::Accelerations,
-            (Some(_), None) => Blur::Velocities,
-            _ if self.times > 1 => Blur::Positions,
-            _ => Blur::Off,
-        }
+        let expected = match self.movement().best() {
+            Blur::Off => "off: nothing in it moves (.usda, .usdc, .usdz and .abc hold motion)",
+            Blur::Positions => "positions",
+            Blur::Velocities if self.has.times > 1 => "velocities or positions",
+            Blur::Velocities => "velocities",
+            Blur::Accelerations => "accelerations, velocities or positions",
+        };
+        bail!("--blur {asked}: {} has no {missing}; expected {expected}", path.display())
     }
 }
 
