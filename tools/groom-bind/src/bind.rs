@@ -32,7 +32,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     let checker = args.writing.check.then(usd::checker).transpose()?;
     let character = character::open(args)?;
     overwrite::refuse(args, target.as_ref(), &character.timeline)?;
-    refuse_many(target.as_ref(), &character)?;
+    refuse_frames(target.as_ref(), &character)?;
 
     let loaded = load::load(args, &character)?;
     let mut done = Done::new(args, &character, target.as_ref());
@@ -46,7 +46,7 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
 
     let events = Events::default();
     if let Some(target) = &target {
-        let (lost, skinned_error) = write(args, target, &groom, &binding, &character, &events)?;
+        let (lost, skinned_error) = write(args, target, &groom, &binding, &character, &events, &mut done)?;
         done.skinned_error = skinned_error;
         done.tell(&[], lost.iter().map(ToString::to_string).collect(), args.json)?;
     }
@@ -65,9 +65,10 @@ pub(crate) fn run(args: &Args) -> Result<Outcome> {
     }
 }
 
-/// A format that holds one frame is given one.
-fn refuse_many(target: Option<&Target>, character: &Character) -> Result<()> {
+/// A format that holds one frame is given one, and a file a frame whole ones.
+fn refuse_frames(target: Option<&Target>, character: &Character) -> Result<()> {
     let frames = character.timeline.frames().len();
+    let step = character.timeline.range.step;
     match target {
         Some(Target::Still(path, format)) if frames > 1 => bail!(
             "{}: {format} holds one frame, and there are {frames}; choose one with --frames N, or write a file a \
@@ -75,6 +76,9 @@ fn refuse_many(target: Option<&Target>, character: &Character) -> Result<()> {
             path.display(),
             path.with_extension(format!("####.{format}")).display()
         ),
+        Some(Target::Files(..)) if step.fract() != 0.0 => {
+            bail!("a file a frame needs whole frames, and --frames has a step of {step}")
+        }
         _ => Ok(()),
     }
 }
@@ -151,11 +155,15 @@ fn write(
     binding: &Binding,
     character: &Character,
     events: &Events,
+    done: &mut Done,
 ) -> Result<(Vec<Warning>, Option<f64>)> {
     let Character { mesh, timeline, .. } = character;
     let dialect = args.writing.dialect.map(Into::into);
     let options = WriteOptions { dialect, all_attributes: true, ..WriteOptions::default() };
     let origin = far::origin(character)?;
+    if let Some(warning) = far::warning(target, origin) {
+        done.tell(&[], vec![warning], args.json)?;
+    }
     let carry = CarryOptions {
         mode: match args.carrying.mode {
             Mode::Rigid => CarryMode::Rigid,

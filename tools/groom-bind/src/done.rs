@@ -117,7 +117,7 @@ impl Done {
             (total.pushed, "points pushed out"),
             (total.inside, "points still inside at worst"),
             (total.teleported, "strands jumped"),
-            (total.held, "strands held still on triangles without a frame"),
+            (total.held, "strands at worst on triangles that collapse or turn over, and kept their turn"),
         ] {
             if count > 0 {
                 line += &format!(", {count} {what}");

@@ -15,7 +15,7 @@ pub(crate) struct FrameEvents {
     pub(crate) inside: usize,
     /// Strands that jumped, and have no velocity.
     pub(crate) teleported: usize,
-    /// Strands on triangles that had no frame of their own: degenerate or flipped ones.
+    /// Strands on triangles that collapsed or turned over, which kept the turn of an earlier pose.
     pub(crate) held: usize,
     /// How much farther or nearer than at rest a root was from its place, at most.
     pub(crate) root_error: Option<f64>,

@@ -4,6 +4,7 @@ use anyhow::Result;
 use glam::DVec3;
 
 use crate::character::Character;
+use crate::target::Target;
 
 /// A character farther off than so many of its sizes has an origin of its own: one step of a 32-bit number there is
 /// a part of its size that shows.
@@ -19,4 +20,17 @@ pub(crate) fn origin(character: &Character) -> Result<DVec3> {
     // Whole numbers are exact in every format.
     let is_far = middle.length() > FAR * low.distance(high);
     Ok(if is_far && middle.is_finite() { middle.round() } else { DVec3::ZERO })
+}
+
+/// What is lost where a format has no place for an origin.
+pub(crate) fn warning(target: &Target, origin: DVec3) -> Option<String> {
+    let holds_transform = matches!(target, Target::Animated(..) | Target::Skinned(..));
+    let step = origin.abs().max_element() * f64::from(f32::EPSILON);
+    (origin != DVec3::ZERO && !holds_transform).then(|| {
+        format!(
+            "{} has no place for a transform: points {:.0} from the origin are rounded by up to {step:.1e}",
+            target.display(),
+            origin.length()
+        )
+    })
 }

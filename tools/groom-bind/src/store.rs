@@ -79,9 +79,6 @@ fn files_with(
     let mut warnings = None;
     for frame in frames {
         let frame = frame?;
-        if frame.time.fract() != 0.0 {
-            bail!("a file a frame needs whole frames, and one is {}; give --frames a whole step", frame.time);
-        }
         let path = output.at(frame.time as i64);
         let told = still(strands, &mut groom, frame, &path, format)?;
         // What holds of one frame holds of all but for figures.
