@@ -1,8 +1,8 @@
 //! From JSON to a document whose indices and types are checked.
 
-use gltf::json::image::MimeType;
+use gltf::json::image::{Image, MimeType};
 use gltf::json::validation::Checked;
-use gltf::json::{Root, Value};
+use gltf::json::{Index, Root, Value};
 use gltf::{Document, Semantic};
 
 use crate::GltfError;
@@ -43,6 +43,7 @@ pub(crate) fn parse(json: &[u8]) -> Result<Document, GltfError> {
     root.extensions_required.clear();
     check_positions(&mut root)?;
     check_channels(&root)?;
+    complete_textures(&mut root);
     complete_images(&mut root);
     Document::from_json(root).map_err(|e| match e {
         gltf::Error::Validation(faults) => match faults.first() {
@@ -108,6 +109,28 @@ fn check_channels(root: &Root) -> Result<(), GltfError> {
         }
     }
     Ok(())
+}
+
+/// An extension may be the only one to know a texture's image (EXT_texture_webp, KHR_texture_basisu); the crate
+/// refuses such a texture. It gets an image that is found missing when it is wanted.
+fn complete_textures(root: &mut Root) {
+    let missing = u32::try_from(root.images.len()).unwrap_or(u32::MAX);
+    let mut is_wanted = false;
+    for texture in root.textures.iter_mut().filter(|texture| texture.source.value() == u32::MAX as usize) {
+        texture.source = Index::new(missing);
+        is_wanted = true;
+    }
+    if is_wanted {
+        let (extensions, extras) = Default::default();
+        root.images.push(Image {
+            buffer_view: None,
+            mime_type: None,
+            name: None,
+            uri: None,
+            extensions,
+            extras,
+        });
+    }
 }
 
 /// The crate panics when it is asked for an image that has a view and no type, or neither view nor address.
@@ -198,11 +221,13 @@ mod tests {
     #[test]
     fn images_can_be_asked_for() {
         let json = r#"{"asset":{"version":"2.0"},"images":[{},{"bufferView":0},{"uri":"a.png"}],
+            "textures":[{"source":2},{"extensions":{"EXT_texture_webp":{"source":2}}}],
             "bufferViews":[{"buffer":0,"byteLength":4}],"buffers":[{"byteLength":4}]}"#;
         let document = parse(json.as_bytes()).unwrap();
         for image in document.images() {
             let _ = image.source();
         }
-        assert_eq!(document.images().len(), 3);
+        let of_textures: Vec<usize> = document.textures().map(|texture| texture.source().index()).collect();
+        assert_eq!((document.images().len(), of_textures), (4, vec![2, 3]));
     }
 }
