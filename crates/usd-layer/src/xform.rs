@@ -96,15 +96,15 @@ fn components(attribute: &Attribute, time: Option<f64>) -> Option<Vec<f64>> {
 
 fn slerp(a: &[f64], b: &[f64], t: f64) -> Vec<f64> {
     let (Some(a), Some(b)) = (quaternion(a), quaternion(b)) else { return a.to_vec() };
-    let q = a.normalize().slerp(b.normalize(), t);
+    let q = a.slerp(b, t);
     vec![q.w, q.x, q.y, q.z]
 }
 
+/// Of length 1; one of length 0 turns nothing.
 fn quaternion(value: &[f64]) -> Option<DQuat> {
-    match *value {
-        [w, x, y, z] => Some(DQuat::from_xyzw(x, y, z, w)),
-        _ => None,
-    }
+    let [w, x, y, z] = *value else { return None };
+    let given = DQuat::from_xyzw(x, y, z, w);
+    Some(if given.length_squared() > 0.0 { given.normalize() } else { DQuat::IDENTITY })
 }
 
 /// The matrix, for columns of points, that an op with these numbers stands for.
@@ -124,7 +124,7 @@ fn matrix_of(name: &str, value: &[f64]) -> Option<DMat4> {
     match kind {
         "translate" => Some(DMat4::from_translation(vector()?)),
         "scale" => Some(DMat4::from_scale(vector()?)),
-        "orient" => Some(DMat4::from_quat(quaternion(value)?.normalize())),
+        "orient" => Some(DMat4::from_quat(quaternion(value)?)),
         // Rows of what multiplies rows from the right are columns of what multiplies columns.
         "transform" => Some(DMat4::from_cols_array(value.try_into().ok()?)),
         _ => {
@@ -174,6 +174,8 @@ mod tests {
         assert_eq!(moved("xformOp:translate", &[1.0, 0.0, -1.0]), [2.0, 2.0, 2.0]);
         assert_eq!(moved("xformOp:scale:pivot", &[2.0, 1.0, 1.0]), [2.0, 2.0, 3.0]);
         assert_eq!(moved("xformOp:rotateZ", &[90.0]), [-2.0, 1.0, 3.0]);
+        assert_eq!(moved("xformOp:orient", &[2.0, 0.0, 0.0, 2.0]), [-2.0, 1.0, 3.0]);
+        assert_eq!(moved("xformOp:orient", &[0.0; 4]), [1.0, 2.0, 3.0]);
         // About x first, then z.
         assert_eq!(moved("xformOp:rotateXYZ", &[90.0, 0.0, 90.0]), [3.0, 1.0, 2.0]);
         assert_eq!(moved("xformOp:rotateZYX", &[90.0, 0.0, 90.0]), [-2.0, -3.0, 1.0]);
