@@ -2,12 +2,14 @@
 """Bakes an animated stage to one plain layer: meshes and curves, their points in the stage's space at every step.
 
 Composition is flattened, transforms are applied, UsdSkel skinning and blend shapes are evaluated. What does not
-move is written once; a skinned prim has the pose it was bound in as its value outside the samples. With
+move is written once. A mesh's value outside the samples is the pose it was bound in, if it is skinned, else that of
+the stage outside its samples (where there is none, at their first), whatever the times that are baked. With
 --transforms points stay in the prim's own space, below one matrix in float64: a character that is far away keeps
 its shape. Exit 0: done. 2: could not.
 """
 
 import argparse
+import math
 import sys
 
 from whole_file import missing_usd_core, whole_file
@@ -33,8 +35,11 @@ class BakeError(Exception):
     """A stage that cannot be baked; the message says where and why."""
 
 
-def frame_times(stage, frames, step):
-    """The time codes to bake: `frames` as (first, last), else the stage's own range."""
+def frame_times(stage, frames, step, hold=None):
+    """The time codes to bake: `frames` as (first, last), else the stage's own range; widened by whole steps to `hold`.
+
+    The last is where a step reaches the end of the range or first goes beyond it.
+    """
     if frames:
         first, last = frames
     elif stage.HasAuthoredTimeCodeRange():
@@ -42,9 +47,18 @@ def frame_times(stage, frames, step):
     else:
         found = sorted({time for prim in stage.Traverse() for a in prim.GetAttributes() for time in a.GetTimeSamples()})
         first, last = (found[0], found[-1]) if found else (0.0, 0.0)
-    if not (last >= first and step > 0):
+    if not (math.isfinite(first) and math.isfinite(last) and last >= first and math.isfinite(step) and step > 0):
         raise BakeError(f"frames {first:g} to {last:g} by {step:g}: expected A <= B and a step over 0")
-    return [first + step * place for place in range(int((last - first) / step + 1e-9) + 1)]
+    if hold is not None:
+        if not math.isfinite(hold):
+            raise BakeError(f"time code {hold:g} to hold: expected a finite number")
+        first, last = first - step * max(whole_steps(first - hold, step), 0), max(last, hold)
+    return [first + step * place for place in range(whole_steps(last - first, step) + 1)]
+
+
+def whole_steps(length, step):
+    """As many steps as `length` needs; a rounding error needs none."""
+    return math.ceil(length / step - 1e-9)
 
 
 def bake_skinning(stage, times, step):
@@ -67,7 +81,7 @@ def bake_skinning(stage, times, step):
 
 
 def bind_poses(stage):
-    """Points of each skinned prim as they were bound, and the matrix to the stage's space, by path."""
+    """The pose of each skinned prim as it was bound, by path: points, normals, the matrix to the stage's space."""
     poses, worlds = {}, UsdGeom.XformCache()
     for root in [prim for prim in stage.Traverse() if prim.IsA(UsdSkel.Root)]:
         cache = UsdSkel.Cache()
@@ -82,8 +96,37 @@ def bind_poses(stage):
                     worlds.GetLocalToWorldTransform(prim))
                 points = UsdGeom.PointBased(prim).GetPointsAttr().Get(Usd.TimeCode.EarliestTime())
                 if points is not None:
-                    poses[str(prim.GetPath())] = np.asarray(points, np.float32).reshape(-1, 3), to_stage
+                    _, normals = normals_of(prim, Usd.TimeCode.EarliestTime())
+                    poses[str(prim.GetPath())] = np.asarray(points, np.float32).reshape(-1, 3), normals, to_stage
     return poses
+
+
+def rest_time(attribute):
+    """Where the value of an attribute outside its samples is, else the first of them."""
+    authored = attribute.Get(Usd.TimeCode.Default()) is not None
+    return Usd.TimeCode.Default() if authored else Usd.TimeCode.EarliestTime()
+
+
+def rest_pose(prim):
+    """The pose of a mesh without a skin outside its samples, as `bind_poses` gives those of others; or nothing."""
+    attribute = UsdGeom.Mesh(prim).GetPointsAttr()
+    points = attribute.Get(rest_time(attribute))
+    if points is None:
+        return None
+    primvar = UsdGeom.PrimvarsAPI(prim).GetPrimvar("normals")
+    of_normals = primvar.GetAttr() if primvar and primvar.HasValue() else UsdGeom.Mesh(prim).GetNormalsAttr()
+    _, normals = normals_of(prim, rest_time(of_normals))
+    to_stage = Gf.Matrix4d(1)
+    while prim and not prim.IsPseudoRoot():
+        place = UsdGeom.Xformable(prim)
+        if place:
+            # The first op is the outermost; matrices take rows.
+            for op in reversed(place.GetOrderedXformOps()):
+                to_stage *= op.GetOpTransform(rest_time(op.GetAttr()))
+            if place.GetResetXformStack():
+                break
+        prim = prim.GetParent()
+    return np.asarray(points, np.float32).reshape(-1, 3), normals, np.array(to_stage)
 
 
 def local_points(prim, cache, time):
@@ -232,17 +275,17 @@ def bake_prim(prim, out, kind, times, cache, bind=None, transforms=False):
         if normals:
             target.SetNormalsInterpolation(interpolation)
             normals_track.put(turned(normals, np.eye(4) if transforms else world), time)
-    bound, to_stage = bind or (None, None)
+    bound, normals, to_stage = bind or (None, None, None)
     points_track.rest(bound if bound is None or transforms else moved(bound, to_stage))
     matrix_track.rest(to_stage)
-    normals_track.rest(None)
+    normals_track.rest(turned(normals, np.eye(4) if transforms else to_stage) if normals else None)
     return len(first)
 
 
-def bake(source, target, frames=None, step=1.0, transforms=False):
+def bake(source, target, frames=None, step=1.0, transforms=False, hold=None):
     """Bakes the stage `source` to the layer `target`; the number of prims and of times."""
     stage = Usd.Stage.Open(source)
-    times = frame_times(stage, frames, step)
+    times = frame_times(stage, frames, step, hold)
     bound = bind_poses(stage)
     skinned = bake_skinning(stage, times, step)
     out = Usd.Stage.CreateNew(target)
@@ -254,9 +297,14 @@ def bake(source, target, frames=None, step=1.0, transforms=False):
     cache, count = UsdGeom.XformCache(), 0
     for prim in stage.Traverse(Usd.TraverseInstanceProxies()):
         kind = next((kind for kind in TOPOLOGY if prim.GetTypeName() == kind), None)
-        if kind is None or UsdGeom.Imageable(prim).ComputePurpose() == UsdGeom.Tokens.guide:
+        if kind is None:
             continue
-        bake_prim(prim, out, kind, times, cache, bound.get(str(prim.GetPath())), transforms)
+        purpose = UsdGeom.Imageable(prim).ComputePurpose()
+        # A proxy stands for another mesh, which is here too.
+        if purpose == UsdGeom.Tokens.guide or kind == "Mesh" and purpose == UsdGeom.Tokens.proxy:
+            continue
+        bind = bound.get(str(prim.GetPath())) or (rest_pose(prim) if kind == "Mesh" else None)
+        bake_prim(prim, out, kind, times, cache, bind, transforms)
         count += 1
     if not count:
         raise BakeError(f"{source}: no Mesh and no BasisCurves prim")
@@ -278,6 +326,7 @@ def main(arguments=None):
     parser.add_argument("target", metavar="OUT", help=".usda, .usdc or .usd")
     parser.add_argument("--frames", metavar="A:B", type=frame_range, help="time codes (default: the stage's range)")
     parser.add_argument("--step", metavar="S", type=float, default=1.0, help="time codes from one to the next (default: 1)")
+    parser.add_argument("--hold", metavar="T", type=float, help="a time code that is to be in the range as well")
     parser.add_argument("--transforms", action="store_true", help="keep points in the prims' own spaces (see above)")
     options = parser.parse_args(arguments)
     if not options.target.endswith(ENDINGS):
@@ -285,7 +334,7 @@ def main(arguments=None):
         return 2
     try:
         with whole_file(options.target) as temporary:
-            prims, times = bake(options.source, temporary, options.frames, options.step, options.transforms)
+            prims, times = bake(options.source, temporary, options.frames, options.step, options.transforms, options.hold)
     except (BakeError, Tf.ErrorException, OSError) as error:
         print(f"error: {options.source}: {error}", file=sys.stderr)
         return 2

@@ -61,6 +61,51 @@ class Baking(unittest.TestCase):
         out = Usd.Stage.Open(self.path("out.usda"))
         self.assertEqual((out.GetStartTimeCode(), out.GetEndTimeCode()), (2, 3))
 
+    def test_every_step_of_the_range_and_what_is_to_be_held_are_covered(self):
+        moving_stage(self.path("in.usda"))
+
+        def times(*options):
+            self.assertEqual(bake.main([self.path("in.usda"), self.path("out.usda"), *options]), 0)
+            out = Usd.Stage.Open(self.path("out.usda"))
+            return UsdGeom.BasisCurves(out.GetPrimAtPath("/Root/Hair")).GetPointsAttr().GetTimeSamples()
+
+        self.assertEqual(times("--frames=-1.5:3", "--step=2"), [-1.5, 0.5, 2.5, 4.5])
+        self.assertEqual(times("--frames=2:3", "--hold=1.8", "--step=0.5"), [1.5, 2, 2.5, 3])
+        self.assertEqual(times("--frames=1:2", "--hold=3"), [1, 2, 3])
+        self.assertEqual(times("--frames=1:3", "--hold=2"), [1, 2, 3])
+        for wrong in ("--frames=0:inf", "--frames=nan:1", "--step=0", "--step=inf", "--hold=nan"):
+            with self.subTest(wrong):
+                self.assertEqual(bake.main([self.path("in.usda"), self.path("out.usda"), wrong]), 2)
+
+    def test_the_value_outside_the_samples_does_not_depend_on_the_range(self):
+        stage = Usd.Stage.CreateNew(self.path("in.usda"))
+        root = UsdGeom.Xform.Define(stage, "/R")
+        translate = root.AddTranslateOp()
+        for time in (0, 10):
+            translate.Set(Gf.Vec3d(time, 0, 0), time)
+        root.AddScaleOp().Set(Gf.Vec3f(2))
+        mesh = UsdGeom.Mesh.Define(stage, "/R/B")
+        mesh.CreatePointsAttr([(0, 0, 9), (1, 0, 9), (0, 1, 9)])
+        mesh.CreateNormalsAttr([(1, 0, 0)] * 3)
+        for time in (2, 4):
+            mesh.GetPointsAttr().Set([(0, 0, time), (1, 0, time), (0, 1, time)], time)
+            mesh.GetNormalsAttr().Set([(0, 0, 1)] * 3, time)
+        mesh.CreateFaceVertexCountsAttr([3])
+        mesh.CreateFaceVertexIndicesAttr([0, 1, 2])
+        proxy = UsdGeom.Mesh.Define(stage, "/R/Proxy")
+        proxy.CreatePurposeAttr(UsdGeom.Tokens.proxy)
+        stage.GetRootLayer().Save()
+        for options in (["--frames=5:8"], ["--frames=5:8", "--transforms"], ["--transforms"], []):
+            with self.subTest(options):
+                self.assertEqual(bake.main([self.path("in.usda"), self.path("out.usda"), *options]), 0)
+                out = Usd.Stage.Open(self.path("out.usda"))
+                self.assertFalse(out.GetPrimAtPath("/R/Proxy"))
+                prim, outside = out.GetPrimAtPath("/R/B"), Usd.TimeCode.Default()
+                world = UsdGeom.XformCache(outside).GetLocalToWorldTransform(prim)
+                points = UsdGeom.Mesh(prim).GetPointsAttr().Get(outside)
+                self.assertEqual([world.Transform(Gf.Vec3d(p)) for p in points], [(0, 0, 18), (2, 0, 18), (0, 2, 18)])
+                self.assertEqual(list(UsdGeom.Mesh(prim).GetNormalsAttr().Get(outside)), [(1, 0, 0)] * 3)
+
     def test_skinning_is_exact_between_frames(self):
         path = self.path("skin.usda")
         stage = Usd.Stage.CreateNew(path)
@@ -135,7 +180,9 @@ class Baking(unittest.TestCase):
 
         np.testing.assert_allclose(placed(Usd.TimeCode.Default()), [(0.001, 0, 0), (1, 0, 0), (0, 1, 0)], atol=1e-7)
         np.testing.assert_allclose(placed(1), [(0, 0.001, 0), (0, 1, 0), (-1, 0, 0)], atol=1e-6)
-        np.testing.assert_allclose(UsdGeom.Mesh(prim).GetNormalsAttr().Get(1), [(0, 1, 0)] * 3, atol=1e-6)
+        normals = UsdGeom.Mesh(prim).GetNormalsAttr()
+        np.testing.assert_allclose(normals.Get(1), [(0, 1, 0)] * 3, atol=1e-6)
+        np.testing.assert_allclose(normals.Get(Usd.TimeCode.Default()), [(1, 0, 0)] * 3, atol=1e-6)
         # Without it the points are in the stage's space, as far as float32 has it.
         self.assertEqual(bake.main([path, self.path("out.usda")]), 0)
         out.Reload()

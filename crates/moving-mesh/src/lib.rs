@@ -18,6 +18,7 @@
 //! Which triangles there are never changes: a frame that is another mesh is an error that names it. Positions are
 //! `f64`. Knows no hair and no light.
 
+mod budget;
 mod choice;
 mod error;
 mod gltf_file;

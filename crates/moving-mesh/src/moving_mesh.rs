@@ -28,7 +28,8 @@ pub struct MovingMesh {
 impl MovingMesh {
     /// Reads `.obj`, `.gltf`, `.glb`, `.usd`, `.usda`, `.usdc` or `.usdz`, told apart by the ending; all meshes
     /// of the file become one. A name with `#` in the place of digits, `walk.####.obj`, is a sequence with one OBJ
-    /// file a frame: they are read when a pose wants them, and a few are kept.
+    /// file a frame: they are read when a pose wants them, and a few are kept. Other files are held in memory; of a
+    /// USD layer that is all its samples, as they are in the file.
     ///
     /// # Errors
     /// [`MeshError`]: the file cannot be read, breaks its format's rules or uses what is not supported; it has no

@@ -11,7 +11,8 @@ pub struct MeshOptions {
     /// only what [`MovingMesh::frame_rate`](crate::MovingMesh::frame_rate) answers.
     pub frame_rate: Option<f64>,
     /// First and last frame that a bake of a USD stage must cover; `None` takes the stage's own. A frame is a
-    /// time code unless there is a [`frame_rate`](MeshOptions::frame_rate).
+    /// time code unless there is a [`frame_rate`](MeshOptions::frame_rate). A [`rest`](MeshOptions::rest) at
+    /// another time is covered as well, and all that is between.
     pub frames: Option<(f64, f64)>,
     /// Frames between the samples of such a bake, above 0; `None` is 1, less gives sub-frames.
     pub step: Option<f64>,

@@ -1,6 +1,6 @@
 //! The joints that carry a skinned mesh.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeSet, HashMap};
 
 use glam::DMat4;
 
@@ -63,12 +63,14 @@ impl Skeleton {
     /// Two skins may have a joint in common, two nodes a name.
     fn name_apart(&mut self) {
         let mut taken = BTreeSet::new();
+        let mut numbers: HashMap<String, usize> = HashMap::new();
         for joint in &mut self.joints {
             let plain = joint.name.clone();
-            let mut number = 2;
+            // Those below it are taken.
+            let number = numbers.entry(plain.clone()).or_insert(2);
             while !taken.insert(joint.name.clone()) {
                 joint.name = format!("{plain}_{number}");
-                number += 1;
+                *number += 1;
             }
         }
     }

@@ -1,13 +1,16 @@
 //! Pictures on a mesh.
 
 use std::fs::File;
-use std::io::{BufReader, Cursor};
+use std::io::{BufRead, BufReader, Cursor, Seek};
 use std::path::PathBuf;
 
 use glam::{Vec2, Vec3};
-use image::{DynamicImage, ImageReader};
+use image::{DynamicImage, ImageError, ImageReader, Limits};
 
 use crate::MeshError;
+
+/// Pixels along a side: a picture of one colour takes little of a file and 12 bytes a pixel here.
+const LONGEST_SIDE: u32 = 1 << 14;
 
 /// A picture, decoded.
 #[derive(Clone, Debug, PartialEq)]
@@ -42,33 +45,44 @@ impl TextureSource {
     pub(crate) fn decode(&self) -> Result<TextureImage, MeshError> {
         let (image, path, place) = match self {
             TextureSource::Held { bytes, path, place } => {
-                let reader = ImageReader::new(Cursor::new(bytes.as_slice())).with_guessed_format();
-                (reader.map_err(image::ImageError::from).and_then(ImageReader::decode), path, place.as_str())
+                (decoded(Cursor::new(bytes.as_slice())), path, place.as_str())
             }
             TextureSource::File(path) => {
                 let file = File::open(path).map_err(|source| MeshError::Io { path: path.clone(), source })?;
-                let reader = ImageReader::new(BufReader::new(file)).with_guessed_format();
-                (reader.map_err(image::ImageError::from).and_then(ImageReader::decode), path, "texture")
+                (decoded(BufReader::new(file)), path, "texture")
             }
             TextureSource::Lost { path, place, fault } => {
                 let (path, place, fault) = (path.clone(), place.clone(), fault.clone());
                 return Err(MeshError::Invalid { path, place, fault });
             }
         };
-        image.map(|image| TextureImage::linear(&image)).map_err(|e| MeshError::Invalid {
+        image.map(TextureImage::linear).map_err(|e| MeshError::Invalid {
             path: path.clone(),
             place: place.to_owned(),
-            fault: format!("{e}, expected a PNG or JPEG picture"),
+            fault: match e {
+                ImageError::Limits(_) => {
+                    format!("{e}, expected a picture of at most {LONGEST_SIDE} x {LONGEST_SIDE} pixels")
+                }
+                _ => format!("{e}, expected a PNG or JPEG picture"),
+            },
         })
     }
 }
 
+fn decoded(bytes: impl BufRead + Seek) -> Result<DynamicImage, ImageError> {
+    let mut reader = ImageReader::new(bytes).with_guessed_format()?;
+    let mut limits = Limits::default();
+    (limits.max_image_width, limits.max_image_height) = (Some(LONGEST_SIDE), Some(LONGEST_SIDE));
+    reader.limits(limits);
+    reader.decode()
+}
+
 impl TextureImage {
     /// Pictures on meshes are sRGB (glTF 2.0, section 3.9.2; USD's `auto` for 8 bits); alpha is left out.
-    fn linear(image: &DynamicImage) -> Self {
+    fn linear(image: DynamicImage) -> Self {
         // 16 bits hold both depths exactly.
         let table: Vec<f32> = (0..=u16::MAX).map(|v| linear(f32::from(v) / f32::from(u16::MAX))).collect();
-        let image = image.to_rgb16();
+        let image = image.into_rgb16();
         let pixel = |p: &image::Rgb<u16>| Vec3::from_array(p.0.map(|v| table[usize::from(v)]));
         TextureImage {
             width: image.width(),
@@ -139,5 +153,12 @@ mod tests {
         assert!((decoded.pixels[1].x - 0.212_23).abs() < 1e-5, "{}", decoded.pixels[1]);
         let cut = bytes.get_ref()[..40].to_vec();
         assert!(held(cut).decode().unwrap_err().to_string().starts_with("a.glb: images[0]: "));
+        for (width, height) in [(LONGEST_SIDE + 1, 1), (1, LONGEST_SIDE + 1)] {
+            let mut bytes = Cursor::new(Vec::new());
+            let image = image::GrayImage::new(width, height);
+            image.write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+            let told = held(bytes.into_inner()).decode().unwrap_err().to_string();
+            assert!(told.contains("expected a picture of at most 16384 x 16384 pixels"), "{told}");
+        }
     }
 }

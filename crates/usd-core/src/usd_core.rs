@@ -27,6 +27,8 @@ pub struct BakeOptions {
     pub step: Option<f64>,
     /// First and last time code; `None` takes the stage's own.
     pub frames: Option<(f64, f64)>,
+    /// A time code that is to be between samples too; the range is widened to it.
+    pub hold: Option<f64>,
     /// Keep points in the prims' own spaces, each below one matrix in `f64`, rather than in the stage's.
     pub transforms: bool,
 }
@@ -65,10 +67,14 @@ impl UsdCore {
     pub fn bake(&self, input: &Path, output: &Path, options: BakeOptions) -> Result<(), UsdCoreError> {
         let mut arguments = vec![input.as_os_str().to_owned(), output.as_os_str().to_owned()];
         if let Some(step) = options.step {
-            arguments.extend(["--step".into(), step.to_string().into()]);
+            arguments.push(format!("--step={step}").into());
         }
+        // In one word: a time below 0 would be taken for an option.
         if let Some((first, last)) = options.frames {
-            arguments.extend(["--frames".into(), format!("{first}:{last}").into()]);
+            arguments.push(format!("--frames={first}:{last}").into());
+        }
+        if let Some(time) = options.hold {
+            arguments.push(format!("--hold={time}").into());
         }
         if options.transforms {
             arguments.push("--transforms".into());

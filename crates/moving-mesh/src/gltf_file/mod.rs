@@ -11,9 +11,10 @@ mod skins;
 use std::path::Path;
 
 use glam::{DAffine3, DVec3, Vec3};
-use gltf::Node;
+use gltf::{Node, Semantic};
 use gltf_bytes::{Asset, GltfError};
 
+use crate::budget::Budget;
 use crate::error::Fault;
 use crate::loaded::{Loaded, Motion, Source};
 use crate::shape::Shape;
@@ -26,17 +27,21 @@ use rig::Piece;
 pub(crate) use rig::Rig;
 use skins::Skins;
 
+/// Vertices, corners and keys for each byte of the file and its buffers: nodes may share a mesh.
+const ELEMENTS_PER_BYTE: usize = 32;
+
 /// Reads the default scene (else the first, else all nodes).
 pub(crate) fn read(path: &Path, options: &MeshOptions) -> Result<Loaded, Fault> {
     let bytes = std::fs::read(path).map_err(|source| Fault::Io { path: path.to_owned(), source })?;
     let asset = Asset::open(&bytes, path.parent())?;
-    let mut scene = Scene::new(&asset)?;
+    let length = bytes.len().saturating_add(asset.buffers.total());
+    let mut scene = Scene::new(&asset, Budget::new(length, ELEMENTS_PER_BYTE))?;
     let animations =
         asset.document.animations().map(|a| listed(&a, &asset)).collect::<Result<Vec<_>, _>>()?;
     let chosen = options.animation.among(&animations)?;
     let animation = chosen.and_then(|index| asset.document.animations().nth(index));
     if let Some(animation) = &animation {
-        scene.weights = scene.nodes.animate(animation, &asset.buffers)?;
+        scene.weights = scene.nodes.animate(animation, &asset.buffers, &mut scene.budget)?;
     }
     let frame_rate = animation.map(|animation| rate(&animation, &asset)).transpose()?.flatten();
     let mut materials = Materials::new(&asset, path);
@@ -68,6 +73,7 @@ pub(crate) fn read(path: &Path, options: &MeshOptions) -> Result<Loaded, Fault> 
 /// A scene while it is being read.
 struct Scene<'a> {
     asset: &'a Asset<'a>,
+    budget: Budget,
     nodes: Nodes,
     weights: Vec<(usize, Curve)>,
     skins: Skins,
@@ -81,7 +87,7 @@ struct Scene<'a> {
 }
 
 impl<'a> Scene<'a> {
-    fn new(asset: &'a Asset<'a>) -> Result<Self, Fault> {
+    fn new(asset: &'a Asset<'a>, budget: Budget) -> Result<Self, Fault> {
         let nodes = Nodes::read(&asset.document)?;
         let mut worlds = Vec::with_capacity(nodes.len());
         nodes.worlds(None, &mut Vec::new(), &mut worlds);
@@ -94,7 +100,19 @@ impl<'a> Scene<'a> {
         let skeleton = crate::Skeleton::new(std::mem::take(&mut skins.joints));
         let (shape, normals) = (Shape::default(), Some(Vec::new()));
         let (weights, pieces, positions) = (Vec::new(), Vec::new(), Vec::new());
-        Ok(Scene { asset, nodes, weights, skins, shape, pieces, positions, normals, skeleton, worlds })
+        Ok(Scene {
+            asset,
+            budget,
+            nodes,
+            weights,
+            skins,
+            shape,
+            pieces,
+            positions,
+            normals,
+            skeleton,
+            worlds,
+        })
     }
 
     /// Adds the triangles of a node's mesh.
@@ -112,11 +130,15 @@ impl<'a> Scene<'a> {
             let place = format!("meshes[{}].primitives[{}]", mesh.index(), primitive.index());
             let buffers = &self.asset.buffers;
             let (look, uv_set) = materials.look(&primitive);
-            let Some(mut geometry) = Geometry::read(&primitive, uv_set, buffers, &place)? else { continue };
+            let geometry = Geometry::read(&primitive, uv_set, buffers, &mut self.budget, &place)?;
+            let Some(mut geometry) = geometry else { continue };
             let count = geometry.positions.len();
             // The skin is what counts where a node has both (glTF 2.0, section 3.7.3.3).
             match node.skin() {
                 Some(skin) => {
+                    let is_set = |(semantic, _): &(Semantic, _)| matches!(semantic, Semantic::Joints(_));
+                    let sets = primitive.attributes().filter(is_set).count();
+                    self.budget.take(count.saturating_mul(4).saturating_mul(sets), &place)?;
                     let skeleton = &mut self.skeleton;
                     let push = |influences: &mut Vec<(u32, f64)>| skeleton.push(influences);
                     self.skins.influences(&skin, &primitive, count, buffers, &place, push)?;

@@ -7,6 +7,7 @@ use gltf::animation::Property;
 use gltf_bytes::{Buffers, Local};
 
 use super::curve::Curve;
+use crate::budget::Budget;
 use crate::error::Fault;
 
 /// The nodes of a scene, parents first. A node's place in this order is its slot.
@@ -61,6 +62,7 @@ impl Nodes {
         &mut self,
         animation: &gltf::Animation<'_>,
         buffers: &Buffers<'_>,
+        budget: &mut Budget,
     ) -> Result<Vec<(usize, Curve)>, Fault> {
         let mut weights = Vec::new();
         for channel in animation.channels() {
@@ -68,6 +70,7 @@ impl Nodes {
             let node = target.node();
             let Some(slot) = self.slot(node.index()) else { continue };
             let place = format!("animations[{}].samplers[{}]", animation.index(), sampler.index());
+            budget.take(sampler.input().count().saturating_add(sampler.output().count()), &place)?;
             let property = target.property();
             let (element, width) = match property {
                 Property::Translation | Property::Scale => (Dimensions::Vec3, 3),

@@ -6,6 +6,7 @@ use gltf::mesh::Mode;
 use gltf::{Accessor, Primitive, Semantic};
 use gltf_bytes::{Buffers, Elements};
 
+use crate::budget::Budget;
 use crate::error::Fault;
 
 /// What a primitive of triangles holds.
@@ -30,6 +31,7 @@ impl Geometry {
         primitive: &Primitive<'_>,
         uv_set: u32,
         buffers: &Buffers<'_>,
+        budget: &mut Budget,
         place: &str,
     ) -> Result<Option<Geometry>, Fault> {
         if !matches!(primitive.mode(), Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan) {
@@ -54,13 +56,17 @@ impl Geometry {
             Some(accessor) => Elements::of(&accessor, &[Dimensions::Scalar], buffers)?.indices()?,
             None => (0..count as u32).collect(),
         };
+        let corners = if primitive.mode() == Mode::Triangles { 1 } else { 3 };
+        budget.take(indices.len().saturating_mul(corners).saturating_add(count), place)?;
         let mut targets = Vec::new();
         for target in primitive.morph_targets() {
             let deltas = |accessor: Option<Accessor<'_>>| deltas(accessor, count, buffers, place);
-            targets.push(MorphTarget {
+            let target = MorphTarget {
                 positions: deltas(target.positions())?,
                 normals: deltas(target.normals().filter(|_| normals.is_some()))?,
-            });
+            };
+            budget.take(target.positions.len().saturating_add(target.normals.len()), place)?;
+            targets.push(target);
         }
         Ok(Some(Geometry {
             // Values that are not one a vertex belong to no vertex.

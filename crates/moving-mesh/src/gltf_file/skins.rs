@@ -41,12 +41,15 @@ impl Skins {
             let invalid =
                 |fault: String| Fault::invalid(format!("skins[{}].joints[{i}]", skin.index()), fault);
             let slot = nodes.slot(node.index());
-            let slot = slot.ok_or_else(|| invalid(format!("node {} is outside the scene", node.index())))?;
+            let slot = slot.ok_or_else(|| {
+                invalid(format!("node {} is outside the scene, expected one inside", node.index()))
+            })?;
             let bind = match &inverse_bind {
                 Some(matrices) => matrices.get(i).copied(),
                 None => Some(DMat4::IDENTITY),
             };
-            let bind = bind.ok_or_else(|| invalid("no inverse bind matrix for this joint".into()))?;
+            let bind =
+                bind.ok_or_else(|| invalid("no inverse bind matrix, expected one for every joint".into()))?;
             if !bind.is_finite() {
                 return Err(invalid("an inverse bind matrix that is not finite, expected numbers".into()));
             }
@@ -55,6 +58,10 @@ impl Skins {
         }
         // Slots have parents first.
         found.sort_by_key(|&(slot, ..)| slot);
+        if let Some([(_, a, joint), (_, b, _)]) = found.array_windows().find(|[a, b]| a.0 == b.0) {
+            let fault = format!("{:?} is joint {a} already, expected every joint once", joint.name);
+            return Err(Fault::invalid(format!("skins[{}].joints[{b}]", skin.index()), fault));
+        }
         let base = self.joints.len();
         let mut numbers = vec![0; found.len()];
         for (number, (slot, in_file, mut joint)) in found.into_iter().enumerate() {
@@ -127,7 +134,10 @@ impl Skins {
                 }
             }
             if influences.is_empty() {
-                return Err(Fault::invalid(place, format!("vertex {vertex} has no skin weight")));
+                return Err(Fault::invalid(
+                    place,
+                    format!("vertex {vertex} has no skin weight, expected one above 0"),
+                ));
             }
             push(&mut influences);
         }

@@ -89,7 +89,7 @@ impl Mesh {
         })
     }
 
-    /// What it takes from the room that a file gives.
+    /// What it takes from the budget of a file.
     pub(super) fn elements(&self) -> usize {
         self.counts.points.saturating_add(self.counts.corners)
     }

@@ -35,6 +35,7 @@ use glam::Vec3;
 use usd_core::{BakeOptions, UsdCore};
 use usd_layer::{Layer, ReadError, Value};
 
+use crate::budget::Budget;
 use crate::error::Fault;
 use crate::loaded::{Loaded, Motion, Source};
 use crate::shape::{Look, Shape};
@@ -48,10 +49,9 @@ const METERS_PER_UNIT: f64 = 0.01;
 /// Time codes a second has in a stage that does not say.
 const TIME_CODES_PER_SECOND: f64 = 24.0;
 
-/// Points and corners of all meshes together, for each byte of the file, and those that any file may have: a crate
-/// holds equal arrays once, and any number of prims may share them.
+/// Points and corners of all meshes together, for each byte of the file: a crate holds equal arrays once, and any
+/// number of prims may share them.
 const ELEMENTS_PER_BYTE: usize = 4;
-const ALWAYS_ALLOWED: usize = 1 << 20;
 
 /// The meshes of a layer, with its bytes.
 #[derive(Debug)]
@@ -88,12 +88,14 @@ fn open(path: &Path) -> Result<Layer<Vec<u8>>, Fault> {
 /// Frames are time codes unless another rate is given.
 fn bake_options(options: &MeshOptions, time_codes_per_second: f64, start: f64) -> BakeOptions {
     let time_codes = time_codes_per_second / options.frame_rate.unwrap_or(time_codes_per_second);
+    let moves = options.animation != AnimationChoice::None;
     let frames = options.frames.map(|(first, last)| (first * time_codes, last * time_codes));
     // A mesh that stays as it is needs one time.
-    let still = (options.animation == AnimationChoice::None).then_some((start, start));
+    let still = (!moves).then_some((start, start));
     BakeOptions {
         step: options.step.map(|step| step * time_codes),
         frames: still.or(frames),
+        hold: options.rest.time().filter(|_| moves).map(|seconds| seconds * time_codes_per_second),
         transforms: true,
     }
 }
@@ -122,14 +124,12 @@ fn film(
             "no Mesh prim, expected at least one that is defined, active and not a guide",
         ));
     }
-    let mut room = layer.bytes().len().saturating_mul(ELEMENTS_PER_BYTE).saturating_add(ALWAYS_ALLOWED);
+    let mut budget = Budget::new(layer.bytes().len(), ELEMENTS_PER_BYTE);
     let (mut shape, mut meshes, mut times) = (Shape::default(), Vec::new(), Vec::new());
     for place in found.meshes {
         let path = place.path.clone();
         let mesh = Mesh::read(&layer, place).map_err(|fault| fault.below(&path))?;
-        room = room.checked_sub(mesh.elements()).ok_or_else(|| {
-            Fault::invalid(&path, "more points and corners, with those before, than the file has room for")
-        })?;
+        budget.take(mesh.elements(), &path)?;
         let name = path.rsplit('/').next().unwrap_or_default();
         let parts = mesh.parts.iter().map(|(subset, triangles)| {
             let name = subset.as_ref().map_or_else(|| name.to_owned(), |subset| format!("{name}/{subset}"));

@@ -3,10 +3,10 @@
 use std::fs;
 
 use glam::Vec3;
-use moving_mesh::{MeshError, TriangleMesh};
+use moving_mesh::{MeshError, MeshOptions, TriangleMesh};
 use proptest::prelude::*;
 
-use crate::support::{data, glb};
+use crate::support::{Gltf, data, glb, open_as};
 
 /// A GLB of one triangle, 42 bytes of buffer: positions, then u16 indices, with a node that moves it.
 fn one_triangle(json_extra: &str) -> Vec<u8> {
@@ -138,6 +138,65 @@ fn sparse_accessors_are_applied() {
     let [embedded, beside] =
         ["box_sparse.glb", "box_sparse.gltf"].map(|f| TriangleMesh::open(folder.join(f)).unwrap());
     assert_eq!(embedded, beside);
+}
+
+/// A few bytes of text each make the same large array count once more.
+#[test]
+fn arrays_that_are_named_again_and_again_take_no_memory() {
+    let told = |members: &dyn Fn(&mut Gltf) -> String| {
+        let mut gltf = Gltf::default();
+        gltf.floats("VEC3", &[1.0; 3 * 3000]);
+        let members = members(&mut gltf);
+        open_as("a.glb", &gltf.file(&members), &MeshOptions::default()).map(|_| ()).unwrap_err().to_string()
+    };
+    let mesh = r#""meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}]"#;
+    let nodes = vec![r#"{"mesh":0}"#; 3000].join(",");
+    let error = told(&|_| format!(r#"{mesh},"nodes":[{nodes}]"#));
+    assert!(error.contains("meshes[0].primitives[0]: 6000 vertices, corners and keys after"), "{error}");
+    let targets = vec![r#"{"POSITION":0}"#; 3000].join(",");
+    let morphs = mesh.replace("}}]}]", &format!(r#"}},"targets":[{targets}]}}]}}]"#));
+    let error = told(&|_| format!(r#"{morphs},"nodes":[{{"mesh":0}}]"#));
+    assert!(error.contains("meshes[0].primitives[0]: 3000 vertices, corners and keys after"), "{error}");
+    let channel = r#"{"sampler":0,"target":{"node":0,"path":"translation"}}"#;
+    let channels = vec![channel; 4000].join(",");
+    let error = told(&|gltf| {
+        let times = gltf.floats("SCALAR", &[0.0; 3000]);
+        let samplers = format!(r#""samplers":[{{"input":{times},"output":0}}]"#);
+        format!(r#"{mesh},"nodes":[{{"mesh":0}}],"animations":[{{{samplers},"channels":[{channels}]}}]"#)
+    });
+    assert!(error.contains("animations[0].samplers[0]: 6000 vertices, corners and keys after"), "{error}");
+}
+
+#[test]
+fn skins_that_are_wrong_are_told() {
+    let told = |joints: &str, weights: [f32; 12], nodes: &str| {
+        let mut gltf = Gltf::default();
+        gltf.floats("VEC3", &[0., 0., 0., 1., 0., 0., 0., 1., 0.]);
+        let weights = gltf.floats("VEC4", &weights);
+        let view = gltf.view(&[0; 12]);
+        let numbers =
+            gltf.accessor(&format!(r#""bufferView":{view},"componentType":5121,"count":3,"type":"VEC4""#));
+        let file = gltf.file(&format!(
+            r#""scenes":[{{"nodes":{nodes}}}],"nodes":[{{"mesh":0,"skin":0}},{{"name":"neck"}},{{"name":"jaw"}}],
+            "skins":[{{"joints":{joints}}}],"meshes":[{{"primitives":[{{"attributes":
+            {{"POSITION":0,"WEIGHTS_0":{weights},"JOINTS_0":{numbers}}}}}]}}]"#
+        ));
+        open_as("a.glb", &file, &MeshOptions::default()).map(|_| ()).map_err(|error| error.to_string())
+    };
+    let whole = [1., 0., 0., 0.].repeat(3).try_into().unwrap();
+    assert_eq!(told("[1,2]", whole, "[0,1,2]"), Ok(()));
+    let error = told("[1,2]", whole, "[0,1]").unwrap_err();
+    assert!(error.contains("skins[0].joints[1]: node 2 is outside the scene"), "{error}");
+    let error = told("[2,1,2]", whole, "[0,1,2]").unwrap_err();
+    assert!(error.contains("skins[0].joints[2]: \"jaw\" is joint 0 already"), "{error}");
+    for (vertex, weight, word) in
+        [(1, 0.0, "no skin weight"), (2, -1.0, "weight -1"), (0, f32::NAN, "weight NaN")]
+    {
+        let mut weights = whole;
+        weights[4 * vertex] = weight;
+        let error = told("[1,2]", weights, "[0,1,2]").unwrap_err();
+        assert!(error.contains(word) && error.contains(&format!("vertex {vertex}")), "{error}");
+    }
 }
 
 proptest! {

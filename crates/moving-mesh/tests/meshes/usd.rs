@@ -1,7 +1,7 @@
 //! USD layers, natively and through usd-core.
 
 use glam::{DVec3, Vec2, Vec3};
-use moving_mesh::{AnimationChoice, MeshError, MeshOptions, MovingMesh, RestPose};
+use moving_mesh::{AnimationChoice, MeshError, MeshOptions, MovingMesh, Pose, RestPose};
 use proptest::prelude::*;
 use usd_core::{UsdCore, UsdCoreError};
 
@@ -220,6 +220,37 @@ fn rest_poses_of_a_stage() {
     let still = open(RestPose::Bind, AnimationChoice::None);
     assert_eq!(still.pose(0.3).unwrap(), *still.rest());
     assert!(!still.moves());
+}
+
+/// The stage with an arc that changes nothing, for usd-core to bake, and a proxy.
+#[test]
+fn a_baked_stage_is_the_one_that_is_read_natively() {
+    let composed = STAGE
+        .replace("def Xform \"Root\"", "class \"_none\" { }\ndef Xform \"Root\" (inherits = </_none>)")
+        .replace("\"guide\"", "\"proxy\"");
+    let native = stage(STAGE).unwrap();
+    let same = |a: &Pose, b: &Pose| {
+        let normals = a.normals.iter().flatten().zip(b.normals.iter().flatten());
+        let worst = a.positions.iter().zip(&b.positions).map(|(a, b)| (*a - *b).length()).fold(0.0, f64::max);
+        assert_eq!((a.positions.len(), a.normals.is_some()), (b.positions.len(), b.normals.is_some()));
+        assert!(worst < 1e-6 && normals.into_iter().all(|(a, b)| (*a - *b).length() < 1e-6), "{worst}");
+    };
+    for (frames, rest) in [
+        (None, RestPose::Bind),
+        (Some((5.0, 8.0)), RestPose::Bind),
+        (Some((5.0, 8.0)), RestPose::Time(0.25)),
+        (Some((-0.5, 3.25)), RestPose::Time(0.75)),
+        (Some((-0.5, 3.25)), RestPose::Nodes),
+    ] {
+        let options = MeshOptions { frames, rest, step: Some(0.5), ..MeshOptions::default() };
+        let Some(baked) = open_as_or_skip("a.usda", composed.as_bytes(), &options) else { return };
+        let told = open_as("a.usda", STAGE.as_bytes(), &options).unwrap();
+        same(baked.rest(), told.rest());
+        let (first, last) = frames.unwrap_or((0.0, 10.0));
+        for time in [first, last].map(|frame| frame / 10.0) {
+            same(&baked.pose(time).unwrap(), &native.pose(time).unwrap());
+        }
+    }
 }
 
 proptest! {
