@@ -22,8 +22,8 @@ pub struct BindReport {
     pub ambiguous: Vec<u32>,
     /// Bound by texture coordinate: strands whose coordinate no triangle holds; the nearest one was taken.
     pub outside: Vec<u32>,
-    /// Strands on a triangle without an area at rest, which have no frame of their own and are moved without
-    /// being turned. Only a mesh that has no other triangles binds to such.
+    /// Strands on a triangle that tells no frame at rest, which are moved without being turned: it has no area, and was
+    /// named by its number or the mesh has no other; or its first edge stands on the surface's smoothed normal.
     pub without_frame: usize,
 }
 

@@ -17,7 +17,8 @@ use crate::{
 /// Carries a groom with the mesh it is bound to.
 ///
 /// A triangle that has collapsed keeps the frame of the pose before, so poses are to be given in the order of
-/// time; all else depends on the pose alone. The same poses give the same bits, whatever the number of threads.
+/// time; all else depends on the pose alone. Stencils count by the first of their poses, which alone is kept: they may
+/// overlap, and no frame is taken from a time after. The same poses give the same bits, whatever the number of threads.
 #[derive(Clone, Debug)]
 pub struct Carrier<'a> {
     groom: &'a Groom,
@@ -133,7 +134,12 @@ impl<'a> Carrier<'a> {
         accelerations: bool,
         out: &mut Moved,
     ) -> Result<CarryReport, BindingError> {
-        let stills = [self.still(poses[0])?, self.still(poses[1])?, self.still(poses[2])?];
+        let first = self.still(poses[0])?;
+        // The next stencil may begin before this one ends.
+        let others = self.still(poses[1]).and_then(|second| Ok([second, self.still(poses[2])?]));
+        self.frames.go_back(&first.frames, first.mirrored, first.held);
+        let [second, third] = others?;
+        let stills = [first, second, third];
         let at = stencil.at();
         let mut report = CarryReport {
             held: stills[at].held,

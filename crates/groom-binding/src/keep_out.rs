@@ -42,7 +42,8 @@ pub(crate) struct Pushed {
 /// A mesh at one pose, to be asked how far places are from it.
 struct Skin<'a> {
     tree: SurfaceTree,
-    normals: PseudoNormals<'a>,
+    features: &'a Features,
+    normals: PseudoNormals,
     triangles: &'a [[u32; 3]],
     positions: &'a [DVec3],
 }
@@ -65,8 +66,8 @@ impl<'a> KeepOut<'a> {
     ///
     /// A point keeps `distance` from the skin, or as much of it as its strand is long up to there: a strand has to
     /// rise first. It is taken along the segment's length after the point before it, and pushed out along the
-    /// direction in which the distance to the skin grows, in turns ([`TURNS`]). A strand that nothing is done to keeps its
-    /// points to the bit.
+    /// direction in which the distance to the skin grows, in turns ([`TURNS`]). What is nearest to the border of an open
+    /// mesh is beside it and never inside. A strand that nothing is done to keeps its points to the bit.
     ///
     /// The tree of triangles is built for every pose: 60,000 triangles that move freely leave no box as it was.
     pub(crate) fn push(&self, groom: &Groom, pose: &Pose, places: &mut [DVec3]) -> Pushed {
@@ -84,10 +85,11 @@ impl<'a> KeepOut<'a> {
     fn skin<'s>(&'s self, pose: &'s Pose) -> Skin<'s> {
         let (triangles, positions) = (self.surface.triangles, &pose.positions[..]);
         let corners = |triangle: u32| self.surface.corners(positions, triangle);
-        let numbered = (0..triangles.len() as u32).map(|triangle| (corners(triangle), triangle)).collect();
-        let (tree, normals) =
-            rayon::join(|| SurfaceTree::new(numbered), || self.features.normals(triangles, positions));
-        Skin { tree, normals, triangles, positions }
+        let (tree, normals) = rayon::join(
+            || SurfaceTree::of_sound(triangles.len(), corners, corners),
+            || self.features.normals(triangles, positions),
+        );
+        Skin { tree, features: &self.features, normals, triangles, positions }
     }
 
     /// Pushes the points of one strand; how many were too near.
@@ -100,12 +102,13 @@ impl<'a> KeepOut<'a> {
         let mut before = first;
         for i in 1..strand.len() {
             let carried = strand[i];
-            let length = carried.distance(before);
+            let segment = carried - before;
+            let length = segment.length();
             before = carried;
             along += length;
             let previous = strand[i - 1];
             // As it comes, while nothing before it has moved.
-            let mut place = if moved { at_length(previous, carried, length) } else { carried };
+            let mut place = if moved { previous + at_length(carried - previous, segment) } else { carried };
             let needed = self.distance.min(along);
             if place.distance(from) >= free {
                 let mut missing = None;
@@ -116,7 +119,8 @@ impl<'a> KeepOut<'a> {
                         break;
                     }
                     missing = Some(());
-                    place = at_length(previous, place + seen.out * (needed - seen.distance), length);
+                    let out = place + seen.out * (needed - seen.distance);
+                    place = previous + at_length(out - previous, segment);
                 }
                 if missing.is_some() {
                     (pushed, moved, free) = (pushed + 1, true, f64::NEG_INFINITY);
@@ -136,9 +140,10 @@ impl Skin<'_> {
             self.triangles[nearest.triangle as usize].map(|vertex| self.positions[vertex as usize]);
         let weights = nearest.barycentrics;
         let offset = (place - a) - (b - a) * weights.y - (c - a) * weights.z;
-        let normal = self.normals.at(nearest.triangle, weights);
+        let feature = self.features.at(nearest.triangle, weights);
+        let normal = self.normals.of(feature);
         let distance = offset.length();
-        let is_inside = offset.dot(normal) < 0.0;
+        let is_inside = offset.dot(normal) < 0.0 && !self.features.is_border(feature);
         let outwards = if is_inside { -offset } else { offset };
         // On the skin itself there is no direction but its normal.
         let out = if distance > 1e-12 * self.tree.size() {
@@ -150,12 +155,9 @@ impl Skin<'_> {
     }
 }
 
-/// The place at `length` from `from` towards `to`.
-fn at_length(from: DVec3, to: DVec3, length: f64) -> DVec3 {
-    match (to - from).try_normalize() {
-        Some(direction) => from + direction * length,
-        None => to,
-    }
+/// As long as `segment` in the direction of `towards`; the segment itself where that is none.
+fn at_length(towards: DVec3, segment: DVec3) -> DVec3 {
+    towards.try_normalize().map_or(segment, |direction| direction * segment.length())
 }
 
 /// How many points but roots are inside, and how deep the deepest is.

@@ -2,12 +2,9 @@
 
 use glam::{DVec3, Vec3};
 use groom::Groom;
-use rayon::prelude::*;
 
+use crate::strand_blocks::each_strand;
 use crate::{BindingError, RootFrames};
-
-/// Points that one piece of work moves, about.
-const BLOCK: usize = 16_384;
 
 /// Moves every strand of `groom` from rest to the pose that `frames` are at, and writes the points minus `origin`
 /// to `out`, as many as the groom has.
@@ -27,37 +24,12 @@ pub fn carry_rigid(
 ) -> Result<(), BindingError> {
     frames.binding().check_groom(groom)?;
     out.resize(groom.point_count(), Vec3::ZERO);
-    let blocks = blocks(groom, out);
-    blocks.into_par_iter().for_each(|(strands, mut out)| {
-        for strand in strands {
-            let mut motion = frames.motion(strand);
-            motion.to -= origin;
-            let points = groom.strand(strand);
-            let (own, rest) = out.split_at_mut(points.len());
-            for (moved, point) in own.iter_mut().zip(points) {
-                *moved = motion.apply(point.as_dvec3()).as_vec3();
-            }
-            out = rest;
+    each_strand(groom, [out], |strand, [own]| {
+        let mut motion = frames.motion(strand);
+        motion.to -= origin;
+        for (moved, point) in own.iter_mut().zip(groom.strand(strand)) {
+            *moved = motion.apply(point.as_dvec3()).as_vec3();
         }
     });
     Ok(())
-}
-
-/// Runs of strands with the part of `out` that is theirs, which must be as long as the groom has points.
-pub(crate) fn blocks<'o, T>(
-    groom: &Groom,
-    mut out: &'o mut [T],
-) -> Vec<(std::ops::Range<usize>, &'o mut [T])> {
-    let offsets = groom.offsets();
-    let mut blocks = Vec::with_capacity(groom.point_count() / BLOCK + 1);
-    let mut first = 0;
-    while first < groom.strand_count() {
-        let start = offsets[first] as usize;
-        let full = offsets[first..].partition_point(|&offset| (offset as usize) < start + BLOCK);
-        let last = (first + full.max(1)).min(groom.strand_count());
-        let (own, rest) = out.split_at_mut(offsets[last] as usize - start);
-        blocks.push((first..last, own));
-        (first, out) = (last, rest);
-    }
-    blocks
 }

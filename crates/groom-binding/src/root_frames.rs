@@ -14,8 +14,8 @@ use crate::{Binding, BindingError, RigidMotion, Root, RootFrame, Surface};
 ///
 /// A frame's origin is the root's place at the pose. Its normal is that of the surface there, the vertices'
 /// normals weighted; its tangent at rest is the first edge of the triangle, and turns with the triangle as a whole.
-/// Where a triangle tells no frame the strand keeps
-/// the rotation of the last pose that did, the rest pose's before there was any, and only moves with its place:
+/// Where a triangle tells no frame the strand keeps the rotation of the last pose that did, the rest pose's before
+/// there was any, and only moves with its place:
 ///
 /// - the triangle has collapsed: it has no area;
 /// - it is turned over: it faces against its vertices' normals, which its neighbours make as well, and did not so at
@@ -75,6 +75,14 @@ impl<'a> RootFrames<'a> {
     pub fn reset(&mut self) {
         self.frames = at_rest(self.binding, &self.surface);
         (self.mirrored, self.held) = (false, 0);
+    }
+
+    /// Back to an earlier pose, at which these were [`RootFrames::frames`], [`RootFrames::mirrored`] and
+    /// [`RootFrames::held`].
+    pub(crate) fn go_back(&mut self, frames: &[RootFrame], mirrored: bool, held: usize) {
+        self.frames.clear();
+        self.frames.extend_from_slice(frames);
+        (self.mirrored, self.held) = (mirrored, held);
     }
 
     /// The frames, one a strand.

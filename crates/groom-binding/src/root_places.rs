@@ -5,7 +5,6 @@ use groom::{Attribute, Domain, Groom, Values, names};
 use rayon::prelude::*;
 
 use crate::root::place;
-use crate::root_frame::has_area;
 use crate::space_curve::along_a_curve;
 use crate::surface_tree::{Nearest, Search, SurfaceTree};
 use crate::{BindBy, BindingError, ROOT_TRIANGLE, Surface, closest_point};
@@ -49,7 +48,7 @@ pub(crate) fn find(
     let corners = |triangle: u32| surface.corners(positions, triangle);
     match by {
         BindBy::Nearest => {
-            let tree = tree_of(surface, corners);
+            let tree = SurfaceTree::of_sound(surface.triangles.len(), corners, corners);
             in_blocks(roots, |strand, search| {
                 let nearest = tree.nearest(roots[strand], search);
                 nearest.map(|n| from_nearest(n, Found::Surely)).ok_or_else(no_triangle)
@@ -106,18 +105,6 @@ fn in_blocks(
     Ok(places)
 }
 
-/// The tree over the triangles that have an area; over all when none has. Strands on a triangle without one would
-/// have no frame, and such triangles lie on the edges of others.
-fn tree_of(surface: &Surface<'_>, corners: impl Fn(u32) -> [DVec3; 3]) -> SurfaceTree {
-    let at_rest = |triangle| surface.corners(&surface.rest.positions, triangle);
-    let all = 0..surface.triangles.len() as u32;
-    let mut sound: Vec<u32> = all.clone().filter(|&triangle| has_area(at_rest(triangle))).collect();
-    if sound.is_empty() {
-        sound = all.collect();
-    }
-    SurfaceTree::new(sound.into_iter().map(|triangle| (corners(triangle), triangle)).collect())
-}
-
 fn by_uv(groom: &Groom, roots: &[DVec3], surface: &Surface<'_>) -> Result<Vec<Place>, BindingError> {
     let expected = "one a vertex, to bind by";
     let uvs = surface.uvs.ok_or_else(|| BindingError::invalid("mesh", "no texture coordinates", expected))?;
@@ -128,8 +115,9 @@ fn by_uv(groom: &Groom, roots: &[DVec3], surface: &Surface<'_>) -> Result<Vec<Pl
     let given = given_uvs(groom)?;
     let flat = |uv: Vec2| uv.as_dvec2().extend(0.0);
     let in_texture = |triangle: u32| surface.triangles[triangle as usize].map(|v| flat(uvs[v as usize]));
-    let tree = tree_of(surface, in_texture);
     let positions = &surface.rest.positions;
+    let in_rest = |triangle: u32| surface.corners(positions, triangle);
+    let tree = SurfaceTree::of_sound(surface.triangles.len(), in_rest, in_texture);
     let (in_texture, in_space) = (APART * tree.size(), APART * surface.size());
     in_blocks(roots, |strand, search| {
         let (uv, root) = (flat(given[strand]), roots[strand]);

@@ -6,6 +6,7 @@ use obvhs::bvh2::Bvh2;
 use obvhs::ploc::{PlocBuilder, PlocSearchDistance, SortPrecision};
 
 use crate::closest_point;
+use crate::root_frame::has_area;
 use crate::surface::bounds;
 
 /// The nearest point of a surface.
@@ -54,6 +55,21 @@ impl SurfaceTree {
         let sorted = tree.primitive_indices.iter().filter_map(|&i| triangles.get(i as usize).copied());
         let triangles = sorted.collect();
         SurfaceTree { tree, triangles, centre, scale }
+    }
+
+    /// A tree over those of `count` triangles that have an area in space; over all when none has. One without lies on the
+    /// edges of others, and tells neither a frame nor a side. `corners` are what is searched, in space or elsewhere.
+    pub(crate) fn of_sound(
+        count: usize,
+        in_space: impl Fn(u32) -> [DVec3; 3],
+        corners: impl Fn(u32) -> [DVec3; 3],
+    ) -> Self {
+        let all = 0..count as u32;
+        let mut sound: Vec<u32> = all.clone().filter(|&triangle| has_area(in_space(triangle))).collect();
+        if sound.is_empty() {
+            sound = all.collect();
+        }
+        Self::new(sound.into_iter().map(|triangle| (corners(triangle), triangle)).collect())
     }
 
     /// The diagonal of the box round all triangles.

@@ -98,3 +98,24 @@ fn every_number_is_one() {
         }
     }
 }
+
+/// Meshes of any size that f64 holds: nothing panics, and where single precision holds their strands all are numbers.
+#[test]
+fn meshes_of_absurd_size() {
+    for size in [1e-300, 1e-160, 1e-30, 1e30, 1e160, 1e300] {
+        let mut mesh = egg(6, 8);
+        mesh.rest.positions.iter_mut().for_each(|p| *p *= size);
+        let mut groom = strands(40, 0.2, 13);
+        let fits = (1e-30..=1e30).contains(&size);
+        if fits {
+            groom.positions_mut().iter_mut().for_each(|p| *p *= size as f32);
+        }
+        let binding = Binding::new(&groom, &mesh.surface(), &BindOptions::default()).unwrap().0;
+        for options in ways() {
+            let mut carrier = Carrier::new(&groom, &binding, mesh.surface(), options).unwrap();
+            let mut out = Vec::new();
+            carrier.positions(&mesh.posed(|p| p * 0.5), &mut out).unwrap();
+            assert!(!fits || out.iter().all(|p| p.is_finite()), "{size} {options:?}");
+        }
+    }
+}

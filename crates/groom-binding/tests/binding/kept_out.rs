@@ -90,6 +90,60 @@ fn strands_that_touch_nothing_keep_their_bits() {
     assert!(untouched > 100 && report.pushed > 100, "{untouched} {report:?}");
 }
 
+/// The upper half of an egg, open below.
+fn dome() -> Mesh {
+    let mut mesh = egg(20, 30);
+    let middle = |t: &[u32; 3]| t.iter().map(|&v| mesh.rest.positions[v as usize].y).sum::<f64>() / 3.0;
+    let upper = mesh.triangles.iter().copied().filter(|t| middle(t) > 0.0).collect();
+    mesh.triangles = upper;
+    mesh
+}
+
+/// Hair longer than the head is high: where the mesh ends below it there is no inside to be pushed out of, though the
+/// border's triangles face away.
+#[test]
+fn what_hangs_past_the_border_of_an_open_mesh_hangs_on() {
+    let mesh = dome();
+    let mut points = Vec::new();
+    for strand in 0..60 {
+        let turn = glam::Quat::from_rotation_y(strand as f32 * 0.1);
+        points.extend([0.3_f32, 0.1, -0.1, -0.4, -1.0].map(|y| turn * Vec3::new(1.05, y, 0.0)));
+        // And in the open, under the rim's middle.
+        points.extend(
+            [0.3_f32, 0.1, -0.1, -0.4, -1.0].map(|y| turn * Vec3::new(1.02 + 0.6 * y.min(0.0), y, 0.0)),
+        );
+    }
+    let groom = Groom::new((0..=120).map(|s| 5 * s).collect(), points).unwrap();
+    let (through, _) = carried(&groom, &mesh, None, &mesh.rest);
+    let (out, report) = carried(&groom, &mesh, Some(0.001), &mesh.rest);
+    assert_eq!((report.pushed, report.inside), (0, 0), "{report:?}");
+    assert_eq!(out, through);
+    // What is inside of the dome is pushed out all the same.
+    let (_, report) = carried(&wild(400), &mesh, Some(0.001), &mesh.rest);
+    assert!(report.pushed > 100, "{report:?}");
+}
+
+/// Triangles without an area lie on the edges of others and have no sides; they hide nobody's.
+#[test]
+fn slivers_do_not_hide_the_inside() {
+    let mut mesh = egg(20, 30);
+    let groom = wild(400);
+    let (plain, told) = carried(&groom, &mesh, Some(0.02), &mesh.rest);
+    let mut slivers = Vec::new();
+    for &[a, b, c] in &mesh.triangles {
+        let [from, to] = [b, c].map(|v| mesh.rest.positions[v as usize]);
+        slivers.extend([[b, mesh.rest.positions.len() as u32, c], [a, b, b], [a, a, a]]);
+        mesh.rest.positions.push(from.midpoint(to));
+        mesh.uvs.push(mesh.uvs[a as usize]);
+    }
+    // First in number, so that they would be taken where they are as near as others.
+    mesh.triangles.splice(0..0, slivers);
+    let (out, report) = carried(&groom, &mesh, Some(0.02), &mesh.rest);
+    assert!(report.inside == 0 && report.pushed.abs_diff(told.pushed) < 10, "{report:?}, {told:?}");
+    let apart = out.iter().zip(&plain).filter(|(a, b)| a.distance(**b) > 1e-3).count();
+    assert!(apart < 20, "{apart}");
+}
+
 /// A strand whose root is deep inside and that is shorter than the way out stays inside, and is told of.
 #[test]
 fn what_cannot_come_out_is_told() {

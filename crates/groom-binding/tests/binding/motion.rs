@@ -126,7 +126,7 @@ fn velocities_are_whole_at_the_ends_of_an_animation() {
     for time in [0.5, 1.5] {
         let (first, second) = rates_of(spun(&groom), time);
         let (moved, _) = at(&mut carrier, &mesh, held, time, 24.0, Some((0.5, 1.5))).unwrap();
-        assert!(error(&moved.velocities, &first) < 2e-3, "{}", error(&moved.velocities, &first));
+        assert!(error(&moved.velocities, &first) < 1e-3, "{}", error(&moved.velocities, &first));
         assert!(error(&moved.accelerations.unwrap(), &second) < 0.1);
         let (half, _) = at(&mut carrier, &mesh, held, time, 24.0, None).unwrap();
         assert!(error(&half.velocities, &first) > 0.4);
@@ -186,6 +186,35 @@ fn a_teleport_leaves_no_streak() {
     let mut carrier = Carrier::new(&groom, &binding, mesh.surface(), CarryOptions::default()).unwrap();
     let (moved, report) = at(&mut carrier, &mesh, jumping, 24.5 / 24.0, 24.0, None).unwrap();
     assert!(report.teleported == 0 && moved.velocities.iter().all(|v| v.z > 1000.0));
+}
+
+/// Sub-frames overlap: the stencil of one begins before that of the last one ends. A triangle that has collapsed keeps the
+/// frame from before it did, not one that was seen after.
+#[test]
+fn no_frame_is_taken_from_a_time_after() {
+    fn collapsing(p: DVec3, t: f64) -> DVec3 {
+        // A point from 0.4 to 0.6; it goes on turning.
+        let size = if (0.4..0.6).contains(&t) { 0.0 } else { 1.0 };
+        DQuat::from_rotation_y(5.0 * t) * p * size
+    }
+    let mesh = egg(8, 10);
+    let groom = strands(60, 0.1, 8);
+    let binding = bound(&groom, &mesh);
+    let mut carrier = Carrier::new(&groom, &binding, mesh.surface(), CarryOptions::default()).unwrap();
+    let mut placed = |time: f64| {
+        let stencil = Stencil::new(time, 0.02, None).unwrap();
+        let [a, b, c] = stencil.times().map(|t| mesh.posed(|p| collapsing(p, t)));
+        let mut moved = Moved::default();
+        let report = carrier.moved(&stencil, [&a, &b, &c], false, &mut moved).unwrap();
+        (report.held, moved.positions)
+    };
+    assert_eq!(placed(0.37).0, 0);
+    let (held, before) = placed(0.5);
+    assert_eq!(held, groom.strand_count());
+    // This one ends where the mesh is back, and the next begins where it is not.
+    assert_eq!(placed(0.59), (held, before.clone()));
+    assert_eq!(placed(0.595), (held, before));
+    assert_eq!(placed(0.63).0, 0);
 }
 
 /// What was in the buffers does not matter, nor how many were asked for before.
