@@ -4,7 +4,8 @@ use glam::{DVec3, Vec3};
 
 use crate::SampleError;
 
-/// The surface fur grows on, in any unit; fur comes out in the same numbers.
+/// The surface fur grows on, in any unit; fur comes out in the same numbers, rounded to 32 bits: far from the origin its
+/// strands lose their shape.
 #[derive(Clone, Copy, Debug)]
 pub struct FurSurface<'a> {
     /// Vertices.

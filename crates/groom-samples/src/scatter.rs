@@ -90,8 +90,8 @@ fn face([a, b, c]: [DVec3; 3]) -> DVec3 {
 pub(crate) fn check(surface: &FurSurface<'_>) -> Result<(), SampleError> {
     let fault = |place: String, found: String, expected| Err(SampleError::Surface { place, found, expected });
     let count = surface.positions.len();
-    if let Some(v) = surface.positions.iter().position(|p| !p.is_finite()) {
-        return fault(format!("vertex {v}"), surface.positions[v].to_string(), "finite numbers");
+    if let Some(v) = surface.positions.iter().position(|p| !p.as_vec3().is_finite()) {
+        return fault(format!("vertex {v}"), surface.positions[v].to_string(), "finite numbers of 32 bits");
     }
     let inside = |triangle: &[u32; 3]| triangle.iter().all(|&v| (v as usize) < count);
     if let Some(t) = surface.triangles.iter().position(|triangle| !inside(triangle)) {

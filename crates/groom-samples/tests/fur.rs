@@ -170,6 +170,7 @@ fn what_nothing_can_grow_on_is_refused() {
     assert!(refused(&with(vec![DVec3::ONE; 3], vec![[0, 1, 2]])));
     assert!(refused(&with(good.positions.clone(), vec![[0, 1, 99]])));
     assert!(refused(&with(vec![DVec3::X, DVec3::Y, DVec3::NAN], vec![[0, 1, 2]])));
+    assert!(refused(&with(vec![DVec3::X, DVec3::Y, DVec3::splat(1e39)], vec![[0, 1, 2]])));
     let normals = FurSurface { normals: Some(&[Vec3::Y]), ..good.surface() };
     assert!(fur_on(&normals, &options).is_err());
     for bad in [

@@ -14,7 +14,7 @@ use crate::hair_file;
 /// Fur in the mesh's own unit and with its axes: bind and render it with that mesh as it is.
 #[derive(Args)]
 pub struct FurArgs {
-    /// The mesh to grow on, in its rest pose: .obj, .gltf or .glb
+    /// The mesh to grow on, in its rest pose: .obj, .gltf, .glb or USD
     #[arg(long, value_name = "FILE")]
     mesh: PathBuf,
     /// How many strands (1 to 16777216)
