@@ -19,13 +19,12 @@ pub(super) fn skin(
     let node = |joint: usize| Index::new((first + joint) as u32);
     let mut keys = Keys::new(accessors, skin.times);
     let mut tops = Vec::new();
-    for (index, (joint, moves)) in skin.rig.joints.iter().zip(&skin.joints).enumerate() {
-        let is_child = |other: &crate::RigJoint| other.parent == Some(index);
-        let children = skin.rig.joints.iter().enumerate().filter(|(_, other)| is_child(other));
-        let children: Vec<_> = children.map(|(child, _)| node(child)).collect();
-        if joint.parent.is_none() {
-            tops.push(node(index));
-        }
+    let mut children = vec![Vec::new(); skin.rig.joints.len()];
+    for (index, joint) in skin.rig.joints.iter().enumerate() {
+        joint.parent.and_then(|parent| children.get_mut(parent)).unwrap_or(&mut tops).push(node(index));
+    }
+    let joints = skin.rig.joints.iter().zip(&skin.joints).zip(children);
+    for (index, ((joint, moves), children)) in joints.enumerate() {
         root.push(joint_node(&joint.name, moves, children));
         keys.add(node(index), Property::Translation, moves.translation.1);
         keys.add(node(index), Property::Rotation, moves.rotation.1);

@@ -85,11 +85,17 @@ pub(crate) fn write_rigged(
         let scale = DVec3::splat(grid.scale().into());
         DMat4::from_translation(grid.translation().as_dvec3()) * DMat4::from_scale(scale)
     });
-    let inverse_binds = rig.joints.iter().flat_map(|joint| {
+    let mut inverse_binds = Vec::with_capacity(rig.joints.len() * 16);
+    for (index, joint) in rig.joints.iter().enumerate() {
         let matrix = (space.inverse_bind(&joint.inverse_bind) * placed).as_mat4();
-        matrix.to_cols_array()
-    });
-    let inverse_binds = plan.tail.push(Type::Mat4, inverse_binds.collect());
+        if !matrix.is_finite() {
+            let place = format!("inverse bind matrix of joint {index} (`{}`)", joint.name);
+            let found = joint.inverse_bind.to_string();
+            return Err(FormatError::invalid(file, place, found, "numbers that 32-bit floats hold"));
+        }
+        inverse_binds.extend(matrix.to_cols_array());
+    }
+    let inverse_binds = plan.tail.push(Type::Mat4, inverse_binds);
     let joints: Vec<JointKeys> = tracks.joints.iter().map(|track| keys(track, &mut plan)).collect();
     let times = joints.iter().any(JointKeys::moves).then(|| plan.tail.push_times(times));
     let origin = change.transform_point3(motion_options.origin);

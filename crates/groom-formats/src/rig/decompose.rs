@@ -22,6 +22,12 @@ impl Parts {
     }
 }
 
+impl std::fmt::Display for Parts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "a translation of {} and a scale of {}", self.translation, self.scale)
+    }
+}
+
 /// The parts of a matrix, exact where it has no shear; a mirror becomes three scales below 0. `last` is the
 /// rotation where the matrix does not say (everything scaled to nothing) and the side of quaternions that the
 /// answer is on.

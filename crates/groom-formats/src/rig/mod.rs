@@ -112,7 +112,7 @@ pub struct RigFrame {
 ///
 /// `.usda`, `.usdc` and `.usdz` hold a UsdSkel skeleton, `.glb` and `.gltf` a skin. Both keep a joint as translation,
 /// rotation and scale (USD's scale in 16 bits): what that cannot hold, a shear, is told as
-/// [`Warning::JointsApproximated`]. Only the joints of all frames are in memory, 40 bytes each.
+/// [`Warning::JointsApproximated`]. Only the joints of all frames are in memory, 40 bytes each and, while USD is written, up to 16 more.
 ///
 /// # Errors
 /// [`FormatError`], an error that `frames` brings included; the old file at `path`, if any, is then untouched.

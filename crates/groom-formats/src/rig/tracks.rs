@@ -9,6 +9,8 @@ use crate::{Format, FormatError, Warning};
 
 /// How far strands may be off, in sizes of the groom, before it is told.
 const TOLERANCE: f64 = 1e-5;
+const EXPECTED: &str =
+    "numbers that 32-bit floats hold, and for USD's scales those that 16 bits do, up to 65504";
 
 /// From the groom's numbers to the file's: C turns and scales, and points are measured from the origin.
 #[derive(Clone, Copy, Debug)]
@@ -96,6 +98,10 @@ impl Tracks {
                     before.unwrap_or_else(|| parts(&world, side))
                 };
                 let local = tracks.joints[index].push(local, &space);
+                if !local.matrix().is_finite() {
+                    let place = format!("joint {index} (`{}`) of frame {}", joint.name, tracks.times.len());
+                    return Err(FormatError::invalid(file, place, local.to_string(), EXPECTED));
+                }
                 last[index] = Some(local);
                 worlds[index] = parent * local.matrix();
                 for corner in corners(&boxes[index]) {
@@ -156,7 +162,9 @@ impl Worst {
     }
 
     fn told(&self, rig: &Rig, format: Format, size: f64) -> Option<Warning> {
-        let joint = rig.joints.get(self.joint).filter(|_| self.distance > TOLERANCE * size)?.name.clone();
+        // A single point has no size that it could be a part of, and no shape to lose.
+        let told = size > 0.0 && self.distance > TOLERANCE * size;
+        let joint = rig.joints.get(self.joint).filter(|_| told)?.name.clone();
         let part = self.distance / size;
         Some(Warning::JointsApproximated { format, joint, time: self.time, part })
     }

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use glam::{DMat4, DVec3};
 use usd_layer::write::WriteError;
 
-use crate::rig::{Influences, Rig, RigMotion, Space, Tracks};
+use crate::rig::{Influences, Rig, RigMotion, Space, Track, Tracks};
 use crate::usd::write::array::{Array, Rows, Shape};
 use crate::usd::write::curves::Curves;
 use crate::usd::write::half;
@@ -130,23 +130,27 @@ impl Skeleton {
     }
 
     fn animation<S: Sink>(&self, sink: &mut S) -> Result<(), WriteError> {
-        let tracks = &self.tracks;
-        let frames = 0..tracks.times.len();
-        let (mut translations, mut rotations, mut scales) = (Vec::new(), Vec::new(), Vec::new());
-        for frame in frames {
-            let joints = &tracks.joints;
-            translations.push(joints.iter().map(|track| track.translations[frame]).collect::<Vec<_>>());
-            let real_first = |[x, y, z, w]: [f32; 4]| [w, x, y, z];
-            rotations.push(joints.iter().map(|track| real_first(track.rotations[frame])).collect::<Vec<_>>());
-            let halves = |scale: [f32; 3]| scale.map(half::from_f32);
-            scales.push(joints.iter().map(|track| halves(track.scales[frame])).collect::<Vec<_>>());
-        }
+        let translations = self.each_frame(|track, frame| track.translations[frame]);
         let samples = self.samples(translations.iter().map(|values| Single::Float3s(values)));
         sink.attribute(Declaration::new("float3[]", "translations"), Content::Moving(&samples))?;
+        drop(translations);
+        let rotations = self.each_frame(|track, frame| {
+            let [x, y, z, w] = track.rotations[frame];
+            [w, x, y, z]
+        });
         let samples = self.samples(rotations.iter().map(|values| Single::Quaternions(values)));
         sink.attribute(Declaration::new("quatf[]", "rotations"), Content::Moving(&samples))?;
+        drop(rotations);
+        let scales = self.each_frame(|track, frame| track.scales[frame].map(half::from_f32));
         let samples = self.samples(scales.iter().map(|values| Single::Half3s(values)));
         sink.attribute(Declaration::new("half3[]", "scales"), Content::Moving(&samples))
+    }
+
+    /// One value a joint for every frame.
+    fn each_frame<T>(&self, value: impl Fn(&Track, usize) -> T) -> Vec<Vec<T>> {
+        let Tracks { times, joints, .. } = &self.tracks;
+        let frame = |frame| joints.iter().map(|track| value(track, frame)).collect();
+        (0..times.len()).map(frame).collect()
     }
 
     fn samples<'v>(&self, values: impl Iterator<Item = Single<'v>>) -> Vec<(f64, Single<'v>)> {
