@@ -44,6 +44,14 @@ pub enum Warning {
         /// How many prims and sublayers.
         prims: usize,
     },
+    /// What moves the strands of a file is not followed.
+    #[error("{by} of the file move the strands; they are read as modelled, where nothing moves them{remedy}")]
+    StillAsModelled {
+        /// `joints` or `morph targets`.
+        by: &'static str,
+        /// What to do about it, after a semicolon; empty where there is nothing.
+        remedy: &'static str,
+    },
     /// Cubic curves became lines with a larger error than is usual, for the sake of memory.
     #[error(
         "the curves become lines within {error:.1e} of their length, not 1e-3: nearer ones would take more than \

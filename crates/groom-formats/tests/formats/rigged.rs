@@ -7,8 +7,8 @@ use std::path::Path;
 use glam::{DMat4, DQuat, DVec3, EulerRot, Mat4, Quat, Vec3};
 use groom::{Groom, UpAxis};
 use groom_formats::{
-    Format, FormatError, Frame, Influences, Mesh, MotionOptions, Rig, RigFrame, RigJoint, Warning,
-    WriteOptions, write_animation, write_rigged,
+    Format, FormatError, Frame, Influences, Mesh, MotionOptions, ReadOptions, Rig, RigFrame, RigJoint,
+    Warning, WriteOptions, read, write_animation, write_rigged,
 };
 use proptest::prelude::*;
 use serde_json::Value;
@@ -369,6 +369,84 @@ fn rigs_that_move_nothing_are_refused_by_name() {
     assert!(refused("a.glb", &[-1.0], 24.0).contains("time of frame 0: found -1"));
     assert!(refused("a.glb", &[1e9, 1e9 + 1.0], 24.0).contains("in the 32 bits that glTF has"));
     assert!(refused("a.glb", &[1.0], 0.0).contains("frame rate: found 0"));
+}
+
+#[test]
+fn joints_that_floats_cannot_hold_are_refused_by_name_even_if_no_strand_follows_them() {
+    let folder = tempfile::tempdir().unwrap();
+    let (groom, mut rig) = (groom(), rig(DVec3::ZERO));
+    rig.joints.push(RigJoint { name: "free".to_owned(), parent: None, inverse_bind: DMat4::IDENTITY });
+    let refused = |rig: &Rig, last: DMat4, ending: &str| {
+        let mut frames = frames(&[0.0, 1.0], DVec3::ZERO);
+        frames[0].joints.push(DMat4::IDENTITY);
+        frames[1].joints.push(last);
+        let path = folder.path().join(format!("a.{ending}"));
+        let motion = MotionOptions::at_rate(24.0);
+        let written = write_rigged(&groom, rig, &mut give(&frames), &motion, &path, &WriteOptions::default());
+        assert_eq!(path.exists(), written.is_ok());
+        written.err().map(|error| error.to_string()).unwrap_or_default()
+    };
+    for ending in ["usda", "glb"] {
+        let far = DMat4::from_translation(DVec3::new(0.0, 1e41, 0.0));
+        let error = refused(&rig, far, ending);
+        assert!(error.contains("joint 4 (`free`) of frame 1: found a translation of [0, inf,"), "{error}");
+        assert!(refused(&rig, DMat4::from_scale(DVec3::splat(60_000.0)), ending).is_empty());
+    }
+    let error = refused(&rig, DMat4::from_scale(DVec3::splat(70_000.0)), "usdc");
+    assert!(error.contains("joint 4 (`free`) of frame 1") && error.contains("up to 65504"), "{error}");
+    rig.joints[4].inverse_bind = DMat4::from_translation(DVec3::X * 1e45);
+    let error = refused(&rig, DMat4::IDENTITY, "gltf");
+    assert!(error.contains("inverse bind matrix of joint 4 (`free`)"), "{error}");
+}
+
+#[test]
+fn readers_say_that_they_follow_neither_joints_nor_morph_targets() {
+    let folder = tempfile::tempdir().unwrap();
+    let (groom, rig) = (groom(), rig(DVec3::ZERO));
+    let motion = MotionOptions::at_rate(24.0);
+    let told = |path: &Path| {
+        let loaded = read(path, &ReadOptions::default()).unwrap();
+        let names: Vec<String> = loaded.groom.attributes().map(|(name, _)| name.to_owned()).collect();
+        assert!(names.iter().all(|name| !name.contains("skel")), "{names:?}");
+        let warnings = loaded.warnings.iter().map(ToString::to_string);
+        warnings.filter(|warning| warning.contains("as modelled")).collect::<Vec<_>>().join("|")
+    };
+    for ending in ["usda", "usdc", "glb", "gltf"] {
+        let path = folder.path().join(format!("a.{ending}"));
+        let frames = frames(&[0.0, 1.0], DVec3::ZERO);
+        write_rigged(&groom, &rig, &mut give(&frames), &motion, &path, &WriteOptions::default()).unwrap();
+        let expected = "joints of the file move the strands";
+        assert!(told(&path).starts_with(expected) && !told(&path).contains('|'), "{}", told(&path));
+        assert_eq!(told(&path).contains("tools/usd/bake.py"), ending.starts_with("usd"));
+    }
+    let path = folder.path().join("a.glb");
+    let frame = |f: u32| Frame {
+        time: f64::from(f),
+        positions: groom.positions().iter().map(|p| *p * f as f32).collect(),
+        ..Frame::default()
+    };
+    let mut given = (1..3).map(|f| Ok(frame(f)));
+    write_animation(&groom, &mut given, &motion, &path, &WriteOptions::default()).unwrap();
+    assert!(told(&path).starts_with("morph targets of the file"), "{}", told(&path));
+}
+
+#[test]
+fn a_groom_of_one_point_loses_no_shape() {
+    let folder = tempfile::tempdir().unwrap();
+    let groom = Groom::new(vec![0, 1], vec![Vec3::new(0.1, 0.2, 0.3)]).unwrap();
+    let joint = RigJoint { name: "a".to_owned(), parent: None, inverse_bind: DMat4::IDENTITY };
+    let influences = vec![Influences { joints: [0; 4], weights: [1.0, 0.0, 0.0, 0.0] }];
+    let rig = Rig { joints: vec![joint], influences };
+    let at = DMat4::from_rotation_translation(DQuat::from_rotation_z(0.7), DVec3::new(100.1, 1.0 / 3.0, 0.0));
+    let frame = RigFrame { time: 0.0, joints: vec![at] };
+    let motion = MotionOptions::at_rate(24.0);
+    let path = folder.path().join("a.usda");
+    let warnings =
+        write_rigged(&groom, &rig, &mut give(&[frame]), &motion, &path, &WriteOptions::default()).unwrap();
+    assert!(
+        warnings.iter().all(|warning| !matches!(warning, Warning::JointsApproximated { .. })),
+        "{warnings:?}"
+    );
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! glTF LINES, LINE_STRIP and LINE_LOOP as a groom.
 //!
 //! Every primitive of lines in the default scene is read where its node stands; skins and morph targets are not
-//! applied. Y is up and the unit is the metre unless the options say otherwise.
+//! applied, with a warning. Y is up and the unit is the metre unless the options say otherwise.
 //!
 //! - Segments of LINES that follow one another in the file make a strand, root first. Segments in any other
 //!   order are walked from the ends of their chains; the root is then the end with the lower index. A vertex
@@ -66,6 +66,11 @@ pub(crate) fn read(
     if skipped > 0 {
         warnings.push(Warning::PrimitivesSkipped { format, primitives: skipped });
     }
+    for (by, moves) in [("joints", found.by_joints), ("morph targets", found.by_targets)] {
+        if moves {
+            warnings.push(Warning::StillAsModelled { by, remedy: "" });
+        }
+    }
     let marks = marks::of(&asset.document);
     let attributes = meaning::attributes(&mut found, &marks, format, &mut warnings);
     let mut parts = Parts {
@@ -107,6 +112,9 @@ struct Found {
     primitives: Vec<i32>,
     triangles: usize,
     points: usize,
+    /// Whether a skin or morph targets move any of the strands.
+    by_joints: bool,
+    by_targets: bool,
     /// Bytes the groom may still take.
     budget: usize,
     /// Shared values that may still be looked at.
@@ -122,6 +130,8 @@ impl Found {
             primitives: Vec::new(),
             triangles: 0,
             points: 0,
+            by_joints: false,
+            by_targets: false,
             budget: file_bytes.saturating_mul(4).saturating_add(ALWAYS_ALLOWED),
             looks: file_bytes.saturating_mul(LOOKS).saturating_add(ALWAYS_ALLOWED),
         }
@@ -143,6 +153,8 @@ impl Found {
                     Mode::Lines | Mode::LineStrip | Mode::LineLoop => {
                         part::add(self, asset, mesh.index(), &primitive, world, lines)?;
                         lines += i32::from(self.primitives.last() == Some(&lines));
+                        self.by_joints |= node.skin().is_some();
+                        self.by_targets |= primitive.morph_targets().next().is_some();
                     }
                     Mode::Points => self.points += 1,
                     Mode::Triangles | Mode::TriangleStrip | Mode::TriangleFan => self.triangles += 1,

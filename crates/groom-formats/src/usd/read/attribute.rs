@@ -8,6 +8,9 @@ use super::values::{self, Fault};
 use crate::join::value_size;
 use crate::{FormatError, Warning};
 
+/// What writes strands as joints move them.
+const BAKE: &str = "; bake the stage first: tools/usd/bake.py";
+
 /// Every attribute of a prim that a groom can hold, by its name there.
 pub(super) fn all<B: AsRef<[u8]>>(
     curves: &Curves<'_, B>,
@@ -36,6 +39,13 @@ pub(super) fn all<B: AsRef<[u8]>>(
                     values.iter_mut().for_each(|value| *value = 1.0 - *value);
                 }
                 add(names::TRANSPARENCY.into(), opacity);
+            }
+            // The numbers of joints mean nothing without their skeleton.
+            (_, Some(primvar)) if primvar.starts_with("skel:") => {
+                let warning = Warning::StillAsModelled { by: "joints", remedy: BAKE };
+                if primvar == "skel:jointIndices" && !warnings.contains(&warning) {
+                    warnings.push(warning);
+                }
             }
             ("primvars:st", _) => add(names::ROOT_UV.into(), read(curves, attribute, "constant", warnings)?),
             (_, Some(primvar)) => add(primvar.into(), read(curves, attribute, "constant", warnings)?),
