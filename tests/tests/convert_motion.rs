@@ -7,7 +7,7 @@ use std::process::Output;
 
 use end_to_end_tests::{run, samples_dir};
 use glam::Vec3;
-use groom_formats::{ReadOptions, read, read_frames};
+use groom_formats::{Frame, MotionOptions, ReadOptions, WriteOptions, read, read_frames, write_animation};
 use tempfile::TempDir;
 
 const FRAMES: usize = 4;
@@ -91,6 +91,27 @@ fn a_part_and_a_still_are_taken_as_asked() {
     let refused = attempt(folder.path(), &["part.usdc", "none.abc", "--frames", "8-9"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(String::from_utf8_lossy(&refused.stderr).contains("its frames are 2 to 3"));
+}
+
+#[test]
+fn accelerations_are_left_out_with_a_word() {
+    let folder = tempfile::tempdir().unwrap();
+    let groom = read(Path::new(&sample()), &ReadOptions::default()).unwrap().groom;
+    let mut given = (0..2).map(|time| {
+        let rates = Some(vec![Vec3::X; groom.point_count()]);
+        Ok(Frame {
+            time: f64::from(time),
+            positions: groom.positions().to_vec(),
+            velocities: rates.clone(),
+            accelerations: rates,
+        })
+    });
+    let path = folder.path().join("a.usdc");
+    let motion = MotionOptions::at_rate(24.0);
+    write_animation(&groom, &mut given, &motion, &path, &WriteOptions::default()).unwrap();
+    let words = convert(folder.path(), &["a.usdc", "b.usdc"]);
+    assert!(words.contains("`accelerations`") && words.contains("left out"), "{words}");
+    assert!(!convert(folder.path(), &["b.usdc", "c.usdc"]).contains("warning"));
 }
 
 #[test]

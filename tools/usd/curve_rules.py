@@ -197,6 +197,8 @@ def _check_skinning(curves, path):
             yield Finding("error", "skinning", f"{path}.{primvar.GetName()}", message)
     if indices.HasValue() and not curves.GetPrim().HasAPI("SkelBindingAPI"):
         yield Finding("error", "skinning", path, "SkelBindingAPI is not applied")
-    if indices.HasValue() and indices.GetElementSize() != weights.GetElementSize():
+    if indices.HasValue() and not weights.HasValue():
+        yield Finding("error", "skinning", path, "skel:jointIndices without skel:jointWeights")
+    elif indices.HasValue() and indices.GetElementSize() != weights.GetElementSize():
         message = f"{indices.GetElementSize()} joints a point, but {weights.GetElementSize()} weights"
         yield Finding("error", "skinning", path, message)

@@ -91,6 +91,15 @@ class Rules(unittest.TestCase):
                     api.CreatePrimvar(name, kind, interpolation, size).Set([value] * count * size)
                 self.assertEqual(self.rules(stage), {"skinning"})
 
+    def test_joints_without_weights_are_found(self):
+        stage, curves = good_stage()
+        curves.GetPrim().AddAppliedSchema("SkelBindingAPI")
+        indices = UsdGeom.PrimvarsAPI(curves).CreatePrimvar(
+            "skel:jointIndices", Sdf.ValueTypeNames.IntArray, "vertex", 1
+        )
+        indices.Set([0] * 5)
+        self.assertEqual(self.rules(stage), {"skinning"})
+
     def test_unset_interpolation_is_found(self):
         stage, curves = good_stage()
         curves.GetWidthsAttr().ClearMetadata("interpolation")

@@ -35,6 +35,8 @@ pub(crate) struct Motion<'a> {
     pub(crate) groom: Rc<Groom>,
     /// Attributes whose values differ from the first frame's in a frame that was stored.
     changed: Rc<RefCell<BTreeSet<String>>>,
+    /// Whether a frame had accelerations, which edits do not know.
+    accelerates: Rc<Cell<bool>>,
     frame_rate: f64,
     frames: Frames<'a>,
     frame_count: u64,
@@ -87,14 +89,18 @@ fn of_file<'a>(path: &Path, args: &'a Args) -> Result<Option<Motion<'a>>> {
     }
     let still = loaded.groom.clone();
     let name = path.display().to_string();
+    let accelerates = Rc::new(Cell::new(false));
+    let seen = Rc::clone(&accelerates);
     let frames = frames.filter(move |frame| frame.as_ref().map_or(true, |frame| is_wanted(frame.time))).map(
         move |frame| {
             let frame = frame?;
+            seen.set(seen.get() || frame.accelerations.is_some());
             Ok((frame.time, format!("{name}, frame {}", frame.time), moved(&still, frame)?))
         },
     );
     let format = loaded.format.or(Format::from_path(path)).unwrap_or(Format::Usdc);
-    Motion::new(path, format, size(path), loaded, Box::new(frames), count, args).map(Some)
+    let motion = Motion::new(path, format, size(path), loaded, Box::new(frames), count, args)?;
+    Ok(Some(Motion { accelerates, ..motion }))
 }
 
 /// A groom with the points of a frame.
@@ -145,6 +151,7 @@ impl<'a> Motion<'a> {
             groom,
             quantize_error,
             changed,
+            accelerates: Rc::default(),
             frame_rate: args.writing.fps.or(frame_rate).unwrap_or(FRAME_RATE),
             frames: Box::new(frames),
             frame_count,
@@ -186,6 +193,12 @@ impl<'a> Motion<'a> {
                     name,
                     why: "only points and velocities move, and it changes; the first frame's is kept".into(),
                 }));
+                if self.accelerates.get() {
+                    lost.push(Warning::AttributeNotRead {
+                        name: "accelerations".into(),
+                        why: "only points and velocities move; they are left out".into(),
+                    });
+                }
                 Ok((self.groom, self.frame_count, lost, size(output)))
             }
         }
