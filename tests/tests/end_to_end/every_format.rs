@@ -1,7 +1,5 @@
 //! The law of attributes: what goes in comes out, or a warning names it. In every format, there and back.
 
-#![allow(clippy::unwrap_used)] // tests fail by panicking
-
 use std::path::{Path, PathBuf};
 
 use end_to_end_tests::{data_file, samples_dir};

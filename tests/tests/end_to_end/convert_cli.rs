@@ -1,7 +1,5 @@
 //! cyhair-convert as a user runs it.
 
-#![allow(clippy::unwrap_used)] // helpers of tests
-
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};

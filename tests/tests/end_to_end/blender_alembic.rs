@@ -3,8 +3,6 @@
 //! Runs where `$GROOMKIT_BLENDER_PYTHON` names a Python with `bpy` (Blender 4.2 or newer), and says aloud when
 //! there is none.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,7 +1,5 @@
 //! What groomkit reads from USD is what usd-core reads.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic, missing_docs)]
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,7 +1,5 @@
 //! USD files of ours, loaded by Blender, where `GROOMKIT_BLENDER_PYTHON` names a Python that has it.
 
-#![allow(clippy::unwrap_used)] // tests fail by panicking
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

@@ -1,7 +1,5 @@
 //! glTF files as other programs see them: the Khronos validator and Blender.
 
-#![allow(clippy::unwrap_used)] // helpers of tests
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

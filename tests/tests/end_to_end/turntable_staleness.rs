@@ -1,5 +1,4 @@
 //! What is made again and what is left alone; kills and resumes.
-#![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};

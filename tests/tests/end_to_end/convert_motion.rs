@@ -1,7 +1,5 @@
 //! Grooms that move through the converter: sequences of files, USD and Alembic.
 
-#![allow(clippy::unwrap_used)] // tests fail by panicking
-
 use std::path::{Path, PathBuf};
 use std::process::Output;
 

@@ -1,7 +1,5 @@
 //! Strands that move, as other programs see them: usd-core, the Khronos validator and Blender.
 
-#![allow(clippy::unwrap_used)] // tests fail by panicking
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

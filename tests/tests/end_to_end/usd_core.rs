@@ -1,7 +1,5 @@
 //! What is left to usd-core's subprocess: it checks, bakes and packages, says what it missed, and how to install it.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests
-
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};

@@ -1,7 +1,5 @@
 //! cyhair-convert --report: its figures against those measured here.
 
-#![allow(clippy::unwrap_used)] // helpers of tests
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 

@@ -1,8 +1,6 @@
 //! Text loads in Mitsuba 3, and what Mitsuba reads is read: `tests/mitsuba/load.py` is run with the Python that
 //! `$GROOMKIT_MITSUBA_PYTHON` names, one that can `import mitsuba`.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests
-
 use std::path::Path;
 use std::process::Command;
 

@@ -1,7 +1,5 @@
 //! What the options of cyhair-convert do to a groom, found by reading its output back.
 
-#![allow(clippy::unwrap_used)] // helpers of tests
-
 use std::path::PathBuf;
 use std::process::{Command, Output};
 

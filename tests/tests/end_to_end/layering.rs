@@ -1,7 +1,5 @@
 //! The arrows of ARCHITECTURE.md, held against the manifests.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
-
 use std::collections::{BTreeMap, BTreeSet};
 use std::process::Command;
 

@@ -1,7 +1,5 @@
 //! What groom-formats writes as USD, opened by usd-core: text, crates and packages say the same, bit by bit.
 
-#![allow(clippy::unwrap_used)] // helpers of tests
-
 use std::path::{Path, PathBuf};
 use std::process::Command;
 

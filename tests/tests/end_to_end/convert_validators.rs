@@ -1,7 +1,5 @@
 //! What cyhair-convert writes, judged by other people's programs: usd-core and the Khronos validator.
 
-#![allow(clippy::unwrap_used)] // helpers of tests
-
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
