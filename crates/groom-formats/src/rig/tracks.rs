@@ -162,7 +162,7 @@ impl Worst {
     }
 
     fn told(&self, rig: &Rig, format: Format, size: f64) -> Option<Warning> {
-        // A single point has no size that it could be a part of, and no shape to lose.
+        // A groom that is all in one place has no size that this could be a part of, and no shape to lose.
         let told = size > 0.0 && self.distance > TOLERANCE * size;
         let joint = rig.joints.get(self.joint).filter(|_| told)?.name.clone();
         let part = self.distance / size;
