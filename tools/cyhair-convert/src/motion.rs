@@ -107,6 +107,8 @@ fn of_file<'a>(path: &Path, args: &'a Args) -> Result<Option<Motion<'a>>> {
 fn moved(groom: &Groom, frame: Frame) -> Result<Groom> {
     let mut groom = groom.clone();
     groom.positions_mut().copy_from_slice(&frame.positions);
+    // Never those of the first frame.
+    groom.remove_attribute(names::VELOCITY);
     if let Some(velocities) = frame.velocities {
         let domain = groom::Domain::Vertex;
         groom.set_attribute(names::VELOCITY, Attribute { domain, values: Values::Vec3(velocities) })?;

@@ -66,6 +66,25 @@ fn an_origin_is_applied_or_kept_as_asked() {
 }
 
 #[test]
+fn an_origin_that_is_nowhere_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.usda");
+    let groom = lock();
+    let motion = MotionOptions { origin: FAR, ..MotionOptions::at_rate(24.0) };
+    write(&groom, &frames(&groom, &[1.0, 2.0], false), &motion, &path);
+    let text = std::fs::read_to_string(&path).unwrap();
+    let (before, after) = text.split_once("xformOp:translate = (").unwrap();
+    std::fs::write(&path, format!("{before}xformOp:translate = (inf, {}", after.split_once(',').unwrap().1))
+        .unwrap();
+    let keep = ReadOptions { keep_origin: true, ..ReadOptions::default() };
+    let error = read_moving(&path, &keep).unwrap_err().to_string();
+    assert!(
+        error.contains("a.usda: place of /Groom") && error.contains("expected finite numbers"),
+        "{error}"
+    );
+}
+
+#[test]
 fn any_time_can_be_read_in_any_order() {
     let folder = tempfile::tempdir().unwrap();
     let groom = lock();

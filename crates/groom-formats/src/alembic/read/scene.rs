@@ -48,7 +48,12 @@ impl<'a> Scene<'a> {
     pub(super) fn keep_origin(&mut self) -> Result<(), FormatError> {
         if let Some(&(node, _)) = self.tree.curves.first() {
             let world = world_from_node(&self.tree, node, &self.samples);
-            self.origin = world.map_err(|error| self.fault(0, error))?.w_axis.truncate();
+            let origin = world.map_err(|error| self.fault(0, error))?.w_axis.truncate();
+            if !origin.is_finite() {
+                let place = format!("place of {}", self.tree.path(Some(node)));
+                return Err(FormatError::invalid(self.file, place, origin.to_string(), "finite numbers"));
+            }
+            self.origin = origin;
         }
         Ok(())
     }

@@ -90,7 +90,17 @@ impl<B: AsRef<[u8]>> Stage<B> {
     /// Measures positions from where the first curves stand at a time.
     pub(super) fn keep_origin(&mut self, time: Option<f64>) -> Result<(), FormatError> {
         if let Some(first) = self.curves.first() {
-            self.origin = self.world_from_prim(first, time)?.w_axis.truncate();
+            let origin = self.world_from_prim(first, time)?.w_axis.truncate();
+            if !origin.is_finite() {
+                let place = format!("place of {}", first.path);
+                return Err(FormatError::invalid(
+                    &self.context.file,
+                    place,
+                    origin.to_string(),
+                    "finite numbers",
+                ));
+            }
+            self.origin = origin;
         }
         Ok(())
     }
