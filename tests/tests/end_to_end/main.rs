@@ -12,6 +12,7 @@ mod convert_report;
 mod convert_validators;
 mod every_format;
 mod gltf_files;
+mod groom_bind;
 #[cfg(target_os = "linux")]
 mod killed_writers;
 mod layering;

@@ -2,7 +2,7 @@
 
 use std::fs;
 
-use crate::support::{attempt, hair, head, moving_square, names_in, square, three_strands};
+use super::support::{attempt, hair, head, moving_square, names_in, square, three_strands};
 
 #[test]
 fn bad_inputs_are_named_and_nothing_is_written() {

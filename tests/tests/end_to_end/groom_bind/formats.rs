@@ -7,7 +7,7 @@ use end_to_end_tests::{validators, workspace};
 use groom::UpAxis;
 use groom_formats::{ReadOptions, WriteOptions, read, write};
 
-use crate::support::{Seen, attempt, bind, bind_json, farthest, frames, hair, head, names_in, three_strands};
+use super::support::{Seen, attempt, bind, bind_json, farthest, frames, hair, head, names_in, three_strands};
 
 const FRAMES: &str = "2-6:2";
 
@@ -163,9 +163,9 @@ fn a_character_far_away_keeps_the_shape_of_its_strands() {
     let folder = tempfile::tempdir().unwrap();
     let (_, groom) = three_strands(folder.path());
     let offset = glam::Vec3::new(1e6, 0.0, -2e6);
-    crate::support::moving_square(folder.path(), 2, |_, corner| corner + offset);
+    super::support::moving_square(folder.path(), 2, |_, corner| corner + offset);
     // Bound at home, carried far away.
-    std::fs::write(folder.path().join("square.0000.obj"), crate::support::square(|corner| corner)).unwrap();
+    std::fs::write(folder.path().join("square.0000.obj"), super::support::square(|corner| corner)).unwrap();
     bind(
         folder.path(),
         &["three.usda", "--mesh", "square.####.obj", "--rest", "0", "--frames", "1", "-o", "out.usda"],

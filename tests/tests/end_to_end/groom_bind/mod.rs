@@ -1,7 +1,5 @@
 //! groom-bind as a user runs it.
 
-#![allow(clippy::unwrap_used, clippy::panic)] // tests fail by panicking
-
 mod attributes;
 mod formats;
 mod motion;

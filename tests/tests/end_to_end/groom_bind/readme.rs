@@ -4,7 +4,7 @@ use std::process::Command;
 
 use end_to_end_tests::{program, workspace};
 
-use crate::support::frames;
+use super::support::frames;
 
 #[test]
 fn the_commands_of_the_readme_that_need_samples_only_run() {

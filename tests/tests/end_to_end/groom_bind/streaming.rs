@@ -4,7 +4,7 @@ use std::process::{Command, Stdio};
 
 use end_to_end_tests::{program, validators};
 
-use crate::support::{hair, head, names_in};
+use super::support::{hair, head, names_in};
 
 /// Runs what follows it and prints the most memory that was in use, in KiB on Linux.
 const PEAK: &str = "\

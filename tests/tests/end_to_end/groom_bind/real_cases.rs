@@ -8,7 +8,7 @@ use groom::Groom;
 use groom_formats::{ReadOptions, read};
 use serde_json::Value;
 
-use crate::support::{bind_json, frames};
+use super::support::{bind_json, frames};
 
 /// Tenths of an inch, z up, made for a face that looks along +y and a head that is rounder: found by looking.
 const YUKSEL_TO_FACE: &str = "-0.00254,0,0,0, 0,0,0.00254,0.012, 0,0.00254,0,-0.04, 0,0,0,1";

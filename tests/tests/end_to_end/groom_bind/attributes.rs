@@ -4,7 +4,7 @@ use groom::{Attribute, Domain, Values, names};
 use groom_formats::{ReadOptions, read};
 use serde_json::Value;
 
-use crate::support::{attempt, bind, bind_json, hair, head, three_strands};
+use super::support::{attempt, bind, bind_json, hair, head, three_strands};
 
 #[test]
 fn strands_learn_coordinates_normals_colours_and_groups() {
@@ -85,7 +85,7 @@ fn strands_beyond_the_limit_are_kept_snapped_or_dropped() {
     let mut groom = groom;
     groom.positions_mut()[4..8].iter_mut().for_each(|point| point.y += 0.5);
     groom_formats::write(&groom, &path, &Default::default()).unwrap();
-    std::fs::write(folder.path().join("square.obj"), crate::support::square(|corner| corner)).unwrap();
+    std::fs::write(folder.path().join("square.obj"), super::support::square(|corner| corner)).unwrap();
     let common = ["three.usda", "--mesh", "square.obj", "-o", "out.usda"];
     let heights = |options: &[&str]| -> Vec<f32> {
         bind(folder.path(), &[&common[..], options].concat());

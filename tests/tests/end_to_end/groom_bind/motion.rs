@@ -2,7 +2,7 @@
 
 use glam::{Quat, Vec3};
 
-use crate::support::{bind, bind_json, farthest, frames, hair, head, moving_square, names_in, three_strands};
+use super::support::{bind, bind_json, farthest, frames, hair, head, moving_square, names_in, three_strands};
 
 const RATE: f32 = 25.0;
 
