@@ -1,8 +1,9 @@
 //! From JSON to a document whose indices and types are checked.
 
+use gltf::json::deserialize::{from_slice, from_value};
 use gltf::json::image::{Image, MimeType};
 use gltf::json::validation::Checked;
-use gltf::json::{Index, Root, Value};
+use gltf::json::{Error, Index, Root, Value};
 use gltf::{Document, Semantic};
 
 use crate::GltfError;
@@ -34,7 +35,7 @@ pub(crate) fn parse(json: &[u8]) -> Result<Document, GltfError> {
         let found = format!("{objects} objects in {} bytes", json.len());
         return Err(GltfError::invalid("JSON", found, format!("at most {most}")));
     }
-    let mut root: Root = gltf::json::deserialize::from_slice(json).map_err(|e| {
+    let mut root = root(json).map_err(|e| {
         let place = format!("JSON line {} column {}", e.line(), e.column());
         GltfError::invalid(place, e.to_string(), "a glTF 2.0 document")
     })?;
@@ -52,6 +53,24 @@ pub(crate) fn parse(json: &[u8]) -> Result<Document, GltfError> {
         },
         other => GltfError::invalid("JSON", other.to_string(), "a glTF 2.0 document"),
     })
+}
+
+/// Channels without a node move what only an extension knows (glTF 2.0, section 3.11); the crate does not read
+/// them, so they are taken out before, in files that name the one extension there is.
+fn root(json: &[u8]) -> Result<Root, Error> {
+    const EXTENSION: &[u8] = b"KHR_animation_pointer";
+    if !json.windows(EXTENSION.len()).any(|text| text == EXTENSION) {
+        return from_slice(json);
+    }
+    let mut root: Value = from_slice(json)?;
+    let animations = root.get_mut("animations").and_then(Value::as_array_mut);
+    for animation in animations.into_iter().flatten() {
+        if let Some(channels) = animation.get_mut("channels").and_then(Value::as_array_mut) {
+            channels
+                .retain(|channel| channel.get("target").is_none_or(|target| target.get("node").is_some()));
+        }
+    }
+    from_value(root)
 }
 
 fn refuse_unknown(root: &Root) -> Result<(), GltfError> {
@@ -216,6 +235,19 @@ mod tests {
         assert!(
             told(&with(r#"{"node":0,"path":"colour"}"#)).starts_with("animations[0].channels[0].target.path")
         );
+    }
+
+    #[test]
+    fn channels_of_extensions_are_left_out() {
+        let json = r#"{"asset":{"version":"2.0"},"nodes":[{"name":"a"}],
+            "accessors":[{"componentType":5126,"count":1,"type":"SCALAR","bufferView":0}],
+            "bufferViews":[{"buffer":0,"byteLength":4}],"buffers":[{"byteLength":4}],
+            "animations":[{"samplers":[{"input":0,"output":0}],"channels":[
+            {"sampler":0,"target":{"path":"pointer","extensions":{"KHR_animation_pointer":{"pointer":"/a"}}}},
+            {"sampler":0,"target":{"node":0,"path":"weights"}}]}]}"#;
+        let document = parse(json.as_bytes()).unwrap();
+        assert_eq!(document.animations().map(|animation| animation.channels().count()).sum::<usize>(), 1);
+        assert!(told(&json.replace("KHR_animation_pointer", "other")).contains("missing field `node`"));
     }
 
     #[test]
