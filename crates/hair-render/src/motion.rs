@@ -96,7 +96,8 @@ impl Motion {
         self.keys.windows(2).any(|pair| pair[0] != pair[1])
     }
 
-    /// Where a point is at `time`, 0 at opening and 1 at closing; `None` for a point without motion.
+    /// Where a point is at `time`, 0 at opening and 1 at closing; before and after it is where it is then.
+    /// `None` for a point without motion.
     #[must_use]
     pub fn at(&self, point: usize, time: f64) -> Option<DVec3> {
         let last = self.keys.len().checked_sub(1)?;

@@ -49,7 +49,8 @@ impl MovingCamera {
         self.keys.len()
     }
 
-    /// The camera at `time`, 0 at the shutter's opening and 1 at its closing.
+    /// The camera at `time`, 0 at the shutter's opening and 1 at its closing; before and after it stays where it
+    /// is then.
     #[must_use]
     pub fn at(&self, time: f64) -> Camera {
         let last = self.keys.len() - 1;

@@ -37,7 +37,7 @@ pub fn render(
 /// [`render`] gives, bit for bit.
 ///
 /// # Errors
-/// As [`render`].
+/// As [`render`]; [`RenderError::Argument`] also for a camera that moves under a shutter that sees but an instant.
 pub fn render_moving(
     scene: &Scene,
     camera: &MovingCamera,
@@ -45,6 +45,7 @@ pub fn render_moving(
     progress: &dyn Progress,
 ) -> Result<Frame, RenderError> {
     settings.check()?;
+    scene.shutter().check_lasts(camera.moves())?;
     let start = Instant::now();
     let pool = settings.pool()?;
     let work = Work {

@@ -30,9 +30,12 @@ impl Scene {
     /// absorptions and builds the tree and the light tables that this scene needs.
     ///
     /// # Errors
-    /// [`RenderError::Argument`], [`RenderError::Scattering`] or [`RenderError::Tracing`].
+    /// [`RenderError::Argument`], also for motion under a shutter that sees but an instant;
+    /// [`RenderError::Scattering`] or [`RenderError::Tracing`].
     pub fn build(description: SceneDescription) -> Result<Self, RenderError> {
         let SceneDescription { hair, meshes, environment, lights, shutter } = description;
+        let motion_keys = motions(&hair, &meshes).map(Motion::key_count).max();
+        shutter.check_lasts(motion_keys.is_some())?;
         lights.iter().try_for_each(|light| light.check())?;
         hair.iter().try_for_each(HairObject::check)?;
         meshes.iter().try_for_each(MeshObject::check)?;
@@ -46,7 +49,6 @@ impl Scene {
         let surfaces = meshes.iter().map(Surface::new).collect::<Result<_, _>>()?;
         let tracer = build_tracer(&hair, &meshes, center)?;
         let lights = Lights::new(environment, &lights, center);
-        let motion_keys = motions(&hair, &meshes).map(Motion::key_count).max();
         Ok(Scene { tracer, fibres: fibres?, surfaces, lights, bounds, center, shutter, motion_keys })
     }
 

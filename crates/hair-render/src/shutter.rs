@@ -86,10 +86,23 @@ impl Shutter {
         &self.shape
     }
 
-    /// Whether it closes as it opens: nothing is blurred then.
+    /// Whether it closes as it opens: nothing can move then.
     #[must_use]
     pub fn is_instant(&self) -> bool {
         self.open == self.close
+    }
+
+    /// Refuses a shutter that leaves no time for what `moves`.
+    pub(crate) fn check_lasts(&self, moves: bool) -> Result<(), RenderError> {
+        if moves && self.is_instant() {
+            let found = format!("{}:{}", self.open, self.close);
+            return Err(RenderError::argument(
+                "shutter",
+                found,
+                "a closing after the opening, for what moves",
+            ));
+        }
+        Ok(())
     }
 
     /// When it opens and closes, in seconds relative to the frame, at `frame_rate` frames a second.

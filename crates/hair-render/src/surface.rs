@@ -25,7 +25,8 @@ struct Smooth {
 }
 
 impl Smooth {
-    /// Of any length, even 0.
+    /// Of any length, even 0. A ray's `time` is within the shutter where anything moves; outside it, the normal
+    /// is that of the nearer end.
     fn normal(&self, triangle: u32, [b, c]: [f32; 2], time: f32) -> Vec3 {
         let vertices = self.triangles[triangle as usize];
         let at = |key: &[Vec3]| {

@@ -216,6 +216,26 @@ fn bounds_hold_the_whole_way() {
     assert_eq!((bounds.min.x, bounds.max.x), (-5.0, 10.0));
 }
 
+/// In an instant nothing moves: what says it does is a mistake, not a blur without length.
+#[test]
+fn an_instant_leaves_no_time_to_move() {
+    let instant = || Shutter::new(0.1, 0.1, ShutterShape::Box).unwrap();
+    let groom = rod(Vec3::ZERO, Vec3::Y, 0.1);
+    let motion = Motion::velocities(groom.positions(), &[Vec3::X; 2], [-0.25, 0.5]).unwrap();
+    let moving = vec![HairObject { motion, ..hair(groom.clone(), blond()) }];
+    let built = Scene::build(SceneDescription { hair: moving, shutter: instant(), ..Default::default() });
+    let refused = "shutter is 0.1:0.1, expected a closing after the opening, for what moves";
+    assert_eq!(built.unwrap_err().to_string(), refused);
+    let still = build(vec![hair(groom, blond())], instant());
+    let orbit = |azimuth| Camera::orbit(DVec3::ZERO, 5.0, azimuth, 0.0, 0.5).unwrap();
+    let shot = |to| {
+        let camera = MovingCamera::new(vec![orbit(0.0), orbit(to)]).unwrap();
+        render_moving(&still, &camera, &settings(4, 1), &Silent)
+    };
+    assert_eq!(shot(0.1).unwrap_err().to_string(), refused);
+    assert!(shot(0.0).is_ok());
+}
+
 #[test]
 fn motion_of_something_else_is_refused() {
     let wrong = Motion::keys(vec![vec![Vec3::ZERO; 3]; 2]).unwrap();
