@@ -7,6 +7,7 @@ use hair_render::{MeshObject, MeshTimes, Shutter};
 use moving_mesh::{AnimationChoice, MeshOptions, MovingMesh, RestPose};
 
 use crate::args::Args;
+use crate::moving_groom;
 
 /// When the meshes of a picture are looked at.
 pub struct When<'a> {
@@ -53,6 +54,13 @@ pub fn pose(mesh: &MovingMesh, args: &Args, when: &When, rate: f64) -> Result<Me
         }
     };
     Ok(MeshObject::posed(mesh, &times, args.input.mesh_albedo)?)
+}
+
+/// What there is to say where the picture is of a frame that a mesh does not have.
+pub fn outside(mesh: &MovingMesh, path: &Path, when: &When, rate: f64) -> Option<String> {
+    let rate = mesh.frame_rate().unwrap_or(rate);
+    let (start, end) = mesh.time_range()?;
+    moving_groom::outside(path, when.frame?, (start * rate, end * rate))
 }
 
 fn is_stage(path: &Path) -> bool {

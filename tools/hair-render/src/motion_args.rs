@@ -14,7 +14,8 @@ pub struct MotionArgs {
     /// still groom stay as their file stands]
     #[arg(long, value_name = "F", allow_hyphen_values = true)]
     pub frame: Option<f64>,
-    /// Frames a second [default: what the groom says, else the first mesh that does, else 24]
+    /// Frames a second [default: what the groom says, else the first mesh that does, else 24]; the frames of a
+    /// .usd* or .abc file stay at its own rate
     #[arg(long, value_name = "RATE")]
     pub fps: Option<f64>,
     /// When light is let in: OPEN:CLOSE in frames relative to the frame, or a length in frames, placed by

@@ -32,6 +32,13 @@ struct Has {
     accelerations: Option<Vec<Vec3>>,
 }
 
+impl Has {
+    fn stand(&mut self) {
+        let speeds = self.velocities.iter_mut().chain(&mut self.accelerations);
+        speeds.flatten().for_each(|speed| *speed = Vec3::ZERO);
+    }
+}
+
 /// Reads the groom at the frame that the arguments name.
 pub fn read(path: &Path, options: ReadOptions, args: &MotionArgs) -> Result<Read> {
     if let Some(frame) = args.frame.filter(|frame| !frame.is_finite()) {
@@ -52,6 +59,10 @@ pub fn read(path: &Path, options: ReadOptions, args: &MotionArgs) -> Result<Read
         let at = motion.at(frame)?;
         has.velocities = at.velocities.or(has.velocities);
         has.accelerations = at.accelerations;
+        // Out there the strands stand, as their positions do.
+        if outside(path, frame, ends(&loaded)).is_some() {
+            has.stand();
+        }
     }
     Ok(Read { loaded, motion: Some(motion), frame, has })
 }
@@ -86,7 +97,14 @@ impl Read {
             Some(motion) => Ok(motion.at(time)?.positions),
             None => bail!("{}: nothing in it moves", path.display()),
         };
+        // The frames of a file are at its own rate, whatever the picture's: so are its velocities.
+        let rate = self.frame_rate().filter(|_| self.has.times > 1).unwrap_or(rate);
         movement.motion(blur, shutter, (self.frame.unwrap_or(0.0), rate), self.keys(args), at)
+    }
+
+    /// What there is to say where the picture is of a frame that the groom does not have.
+    pub fn outside(&self, path: &Path) -> Option<String> {
+        outside(path, self.frame?, ends(&self.loaded))
     }
 
     /// Frames a second, as the groom says.
@@ -110,6 +128,23 @@ impl Read {
         };
         bail!("--blur {asked}: {} has no {missing}; expected {expected}", path.display())
     }
+}
+
+/// First and last of several frames; without end where there are not several.
+fn ends(loaded: &Loaded) -> (f64, f64) {
+    match loaded.times.as_slice() {
+        [first, .., last] => (*first, *last),
+        _ => (f64::NEG_INFINITY, f64::INFINITY),
+    }
+}
+
+/// What there is to say of a frame before the first or after the last that a file has.
+pub fn outside(path: &Path, frame: f64, (first, last): (f64, f64)) -> Option<String> {
+    /// Frames that rounding of seconds may be off.
+    const NEAR: f64 = 1e-3;
+    let beyond = frame < first - NEAR || frame > last + NEAR;
+    let name = path.display();
+    beyond.then(|| format!("{name}: frame {frame} is outside {first} to {last}; it stands as at the nearest"))
 }
 
 /// The rate that holds for the picture.

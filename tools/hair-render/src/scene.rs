@@ -52,6 +52,9 @@ pub fn describe(args: &Args) -> Result<Described> {
     let meshes: Vec<MovingMesh> = args.input.mesh.iter().map(open).collect::<Result<_>>()?;
     let frame_rate = moving_groom::rate(motion_args, &read, meshes.iter().find_map(MovingMesh::frame_rate));
     let motion = read.motion(path, motion_args, &shutter, frame_rate)?;
+    words.extend(read.outside(path));
+    let outside = |(mesh, path): (&MovingMesh, &PathBuf)| meshes::outside(mesh, path, &when, frame_rate);
+    words.extend(meshes.iter().zip(&args.input.mesh).filter_map(outside));
     let pose = |mesh| meshes::pose(mesh, args, &when, frame_rate);
     let meshes = meshes.iter().map(pose).collect::<Result<_>>()?;
     let [open, close] = shutter.seconds(frame_rate)?;
@@ -84,6 +87,9 @@ pub fn camera(view: &View, motion: &MotionArgs, scene: &Scene) -> Result<MovingC
     let opening = still_camera(view, scene)?;
     let Some(option) = motion.camera_moves() else { return Ok(opening.into()) };
     ensure!(motion.blurs(), "--blur off leaves nothing for {option} to move");
+    // Plus nothing: the middle of no length is -0.
+    let (instant, open) = (scene.shutter().is_instant(), scene.shutter().open() + 0.0);
+    ensure!(!instant, "a shutter of {open}:{open} leaves no time for {option}; expected one that stays open");
     let closing = View {
         azimuth: motion.azimuth_to.unwrap_or(view.azimuth),
         elevation: motion.elevation_to.unwrap_or(view.elevation),

@@ -104,6 +104,29 @@ fn velocities_blur_where_a_file_has_them() {
     assert!(by_default == pixels(&["--blur", "velocities"]));
     assert!(by_default == pixels(&["--blur", "positions"]));
     assert!(by_default != pixels(&["--blur", "off"]));
+    // A frame of the file stays one, whatever the picture's rate.
+    assert!(by_default == pixels(&["--fps", "5"]));
+    assert!(by_default == pixels(&["--fps", "5", "--blur", "positions"]));
+}
+
+/// Before its first and after its last frame a groom stands, also by velocities, and the user hears of it.
+#[test]
+fn frames_that_are_not_there_are_told_and_not_blurred() {
+    let folder = folder("outside");
+    let groom = moving(&folder, true);
+    for (frame, outside) in [("40", true), ("0.5", true), ("1", false), ("3", false)] {
+        let arguments = [&SMALL[..], &["-o", "a.exr", "--frame", frame]].concat();
+        let done = command_on(&groom, &folder, &arguments).output().unwrap();
+        let told: Value = serde_json::from_slice(&done.stdout).unwrap();
+        assert_eq!(told["motion"].is_null(), outside, "{frame}: {told}");
+        let words = String::from_utf8_lossy(&done.stderr).into_owned();
+        assert_eq!(words.contains(&format!("frame {frame} is outside 1 to 3")), outside, "{words}");
+    }
+    let head = sample("nodding_head.glb").display().to_string();
+    let arguments = [&SMALL[..], &["-o", "a.exr", "--frame", "2000", "--mesh", &head]].concat();
+    let done = command_on(&sample("straight.hair"), &folder, &arguments).output().unwrap();
+    let words = String::from_utf8_lossy(&done.stderr).into_owned();
+    assert!(words.contains("nodding_head.glb: frame 2000 is outside"), "{words}");
 }
 
 #[test]
@@ -147,6 +170,7 @@ fn what_cannot_be_blurred_is_refused_with_what_can() {
         (&["--fps", "0"], "frame rate is 0"),
         (&["--frame", "nan"], "--frame is NaN, expected a finite number"),
         (&["--blur", "off", "--azimuth-to", "3"], "--azimuth-to"),
+        (&["--shutter", "0", "--azimuth-to", "3"], "a shutter of 0:0 leaves no time for --azimuth-to"),
         (&["--from-to", "1,2,3"], "--from"),
         (&["--from", "0,0,9", "--azimuth-to", "3"], "--azimuth-to"),
         (&["--mesh", &head, "--mesh-animation", "Jump"], "Jump"),
