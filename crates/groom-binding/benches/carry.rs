@@ -8,7 +8,9 @@
 
 #![allow(clippy::print_stdout)] // figures are what a bench is for
 
-use std::f64::consts::{PI, TAU};
+#[path = "common/ball.rs"]
+mod ball;
+
 use std::fs;
 use std::hint::black_box;
 use std::path::{Path, PathBuf};
@@ -21,8 +23,8 @@ use groom_binding::{BindOptions, Binding, RootFrames, Surface, carry_rigid};
 use moving_mesh::Pose;
 use rayon::ThreadPoolBuilder;
 
-const RINGS: u32 = 151;
-const COLUMNS: u32 = 200;
+use crate::ball::ball;
+
 const STRANDS: u32 = 50_000;
 const POINTS: u32 = 25;
 /// Timings of which the best counts.
@@ -130,32 +132,6 @@ fn core_time() -> f64 {
     let text = fs::read_to_string("/proc/thread-self/schedstat").unwrap_or_default();
     let nanoseconds = text.split_whitespace().next().and_then(|word| word.parse::<f64>().ok());
     nanoseconds.map_or(f64::NAN, |n| n * 1e-9)
-}
-
-/// A ball with bumps, so that no two triangles are alike.
-fn ball() -> (Vec<[u32; 3]>, Pose) {
-    let (mut triangles, mut positions) = (Vec::new(), Vec::new());
-    for ring in 0..=RINGS {
-        for column in 0..COLUMNS {
-            let (polar, around) =
-                (PI * f64::from(ring) / f64::from(RINGS), TAU * f64::from(column) / f64::from(COLUMNS));
-            let bump = 1.0 + 0.05 * (7.0 * polar).sin() * (5.0 * around).cos();
-            let radius = if ring == 0 || ring == RINGS { 0.0 } else { polar.sin() };
-            positions.push(bump * DVec3::new(radius * around.cos(), polar.cos(), -radius * around.sin()));
-        }
-    }
-    for ring in 0..RINGS {
-        for column in 0..COLUMNS {
-            let (a, b) = (ring * COLUMNS + column, ring * COLUMNS + (column + 1) % COLUMNS);
-            if ring > 0 {
-                triangles.push([a, a + COLUMNS, b]);
-            }
-            if ring + 1 < RINGS {
-                triangles.push([b, a + COLUMNS, b + COLUMNS]);
-            }
-        }
-    }
-    (triangles, Pose { positions, normals: None })
 }
 
 /// Curved strands that start a little above or below the ball, in no order.

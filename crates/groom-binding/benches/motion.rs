@@ -5,7 +5,9 @@
 
 #![allow(clippy::print_stdout)] // figures are what a bench is for
 
-use std::f64::consts::{PI, TAU};
+#[path = "common/ball.rs"]
+mod ball;
+
 use std::time::Instant;
 
 use glam::{DQuat, DVec3};
@@ -17,8 +19,8 @@ use groom_binding::{
 use groom_samples::{FurOptions, FurSurface, fur_on};
 use moving_mesh::Pose;
 
-const RINGS: u32 = 151;
-const COLUMNS: u32 = 200;
+use crate::ball::ball;
+
 const STRANDS: u32 = 50_000;
 const POINTS: u32 = 25;
 /// Timings of which the best counts.
@@ -128,32 +130,6 @@ fn table(value: &str, reference: &str, rows: &[AccuracyRow]) {
     for row in rows {
         println!("| {:.4} | {:.2} | {:.2e} | {:.2e} |", row.value, row.seconds * 1e3, row.error, row.worst);
     }
-}
-
-/// A ball with bumps, so that no two triangles are alike.
-fn ball() -> (Vec<[u32; 3]>, Pose) {
-    let (mut triangles, mut positions) = (Vec::new(), Vec::new());
-    for ring in 0..=RINGS {
-        for column in 0..COLUMNS {
-            let polar = PI * f64::from(ring) / f64::from(RINGS);
-            let around = TAU * f64::from(column) / f64::from(COLUMNS);
-            let bump = 1.0 + 0.05 * (7.0 * polar).sin() * (5.0 * around).cos();
-            let radius = if ring == 0 || ring == RINGS { 0.0 } else { polar.sin() };
-            positions.push(bump * DVec3::new(radius * around.cos(), polar.cos(), -radius * around.sin()));
-        }
-    }
-    for ring in 0..RINGS {
-        for column in 0..COLUMNS {
-            let (a, b) = (ring * COLUMNS + column, ring * COLUMNS + (column + 1) % COLUMNS);
-            if ring > 0 {
-                triangles.push([a, a + COLUMNS, b]);
-            }
-            if ring + 1 < RINGS {
-                triangles.push([b, a + COLUMNS, b + COLUMNS]);
-            }
-        }
-    }
-    (triangles, Pose { positions, normals: None })
 }
 
 /// A nod with a bend and a breath: nothing moves as a rigid body.

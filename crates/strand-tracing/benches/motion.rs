@@ -16,6 +16,8 @@ use strand_tracing::{
 
 #[path = "../src/arrange.rs"]
 mod arrange;
+#[path = "common/ball.rs"]
+mod ball;
 #[path = "../src/bounds.rs"]
 mod bounds;
 #[path = "../src/build.rs"]
@@ -69,6 +71,7 @@ mod walk;
 #[path = "../src/wide_tree.rs"]
 mod wide_tree;
 
+use ball::{Hair, Random, ball};
 use fibres::Fibres;
 use meshes::Meshes;
 use moving_packs::MovingPacks;
@@ -87,49 +90,6 @@ const RUN: usize = 256;
 /// The tree whose boxes hold all keys is so slow that it gets only every so manieth run.
 const NAIVE: usize = 16;
 const SEGMENTS: u32 = 24;
-
-/// Uniform numbers from a counter (SplitMix64).
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> f32 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) >> 40) as f32 / (1_u64 << 24) as f32
-    }
-
-    fn direction(&mut self) -> Vec3 {
-        let z = 1.0 - 2.0 * self.next();
-        let (sin, cos) = (std::f32::consts::TAU * self.next()).sin_cos();
-        let across = (1.0 - z * z).max(0.0).sqrt();
-        vec3(across * cos, across * sin, z).normalize()
-    }
-}
-
-/// The ball of the bench `rays`.
-struct Hair {
-    offsets: Vec<u32>,
-    positions: Vec<Vec3>,
-    radii: Vec<f32>,
-}
-
-fn ball(strands: u32) -> Hair {
-    let mut random = Random(1);
-    let mut hair = Hair { offsets: vec![0], positions: Vec::new(), radii: Vec::new() };
-    for _ in 0..strands {
-        let out = random.direction();
-        let side = out.any_orthonormal_vector() * (random.next() - 0.5);
-        for point in 0..=SEGMENTS {
-            let s = point as f32 / SEGMENTS as f32;
-            hair.positions.push(out * (5.0 + 5.0 * s) + (side + Vec3::NEG_Y) * 2.0 * s * s);
-            hair.radii.push(0.05 - 0.03 * s);
-        }
-        hair.offsets.push(hair.positions.len() as u32);
-    }
-    hair
-}
 
 /// The ball at keys evenly spaced over a turn about the vertical; the turn is centred on the shutter.
 fn spun(hair: &Hair, degrees: f32, keys: usize) -> Vec<Vec<Vec3>> {
@@ -245,7 +205,7 @@ impl<'a> Timed<'a> {
 fn main() {
     let strands = std::env::var("BENCH_STRANDS").ok().and_then(|text| text.parse().ok()).unwrap_or(10_000);
     let only = std::env::var("BENCH_ONLY").unwrap_or_default();
-    let hair = ball(strands);
+    let hair = ball(strands, SEGMENTS);
     println!("ball of {strands} strands, {} points; Mrays/s primary, bounce, any", hair.positions.len());
     let mut random = Random(7);
     let primary = camera_rays(200, &mut random);

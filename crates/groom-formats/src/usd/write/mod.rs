@@ -80,9 +80,7 @@ pub(crate) fn write_usda(
     let mut warnings = Vec::new();
     let job = Job { format: Format::Usda, file, options };
     let curves = job.curves(groom, &mut warnings)?;
-    let mut sink = text_sink::TextSink::new(stream, &curves);
-    job.fill(&mut sink, &curves, Moves::Nothing, &mut warnings)?;
-    sink.finish().map_err(|e| FormatError::io(file, e))?;
+    job.fill_text(stream, &curves, Moves::Nothing, &mut warnings)?;
     Ok(warnings)
 }
 
@@ -113,18 +111,7 @@ pub(crate) fn write_animation(
     let job = Job { format, file, options };
     let mut warnings = Vec::new();
     let curves = job.curves(motion.groom, &mut warnings)?;
-    match format {
-        #[cfg(feature = "usda")]
-        Format::Usda => {
-            let mut sink = text_sink::TextSink::new(stream, &curves);
-            job.fill(&mut sink, &curves, Moves::Points(motion), &mut warnings)?;
-            sink.finish().map_err(|e| FormatError::io(file, e))?;
-        }
-        #[cfg(feature = "usdc")]
-        _ => job.fill_crate(stream, &curves, Moves::Points(motion), &mut warnings)?,
-        #[cfg(not(feature = "usdc"))]
-        _ => {}
-    }
+    job.fill_any(stream, &curves, Moves::Points(motion), &mut warnings)?;
     Ok(warnings)
 }
 
@@ -144,19 +131,7 @@ pub(crate) fn write_rigged(
         warnings.push(Warning::AttributeLeftOut { format, name: names::VELOCITY.to_owned() });
     }
     let skeleton = skeleton::Skeleton::of(motion, &curves, format, file, &mut warnings)?;
-    let moves = Moves::Joints(&skeleton);
-    match format {
-        #[cfg(feature = "usda")]
-        Format::Usda => {
-            let mut sink = text_sink::TextSink::new(stream, &curves);
-            job.fill(&mut sink, &curves, moves, &mut warnings)?;
-            sink.finish().map_err(|e| FormatError::io(file, e))?;
-        }
-        #[cfg(feature = "usdc")]
-        _ => job.fill_crate(stream, &curves, moves, &mut warnings)?,
-        #[cfg(not(feature = "usdc"))]
-        _ => {}
-    }
+    job.fill_any(stream, &curves, Moves::Joints(&skeleton), &mut warnings)?;
     Ok(warnings)
 }
 
@@ -214,6 +189,37 @@ impl Job<'_> {
         let look = options.look.as_ref();
         let stage = Stage { curves, primvars: &primvars, dialect: options.dialect, look, origin, skeleton };
         stage.write(sink, samples.as_ref()).map_err(|e| failed(e, format, file))
+    }
+
+    /// Writes the stage in whichever form the format has.
+    fn fill_any(
+        self,
+        stream: &mut (impl Write + Seek),
+        curves: &Curves<'_>,
+        moves: Moves<'_>,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<(), FormatError> {
+        match self.format {
+            #[cfg(feature = "usda")]
+            Format::Usda => self.fill_text(stream, curves, moves, warnings),
+            #[cfg(feature = "usdc")]
+            _ => self.fill_crate(stream, curves, moves, warnings),
+            #[cfg(not(feature = "usdc"))]
+            _ => Ok(()),
+        }
+    }
+
+    #[cfg(feature = "usda")]
+    fn fill_text(
+        self,
+        stream: &mut impl Write,
+        curves: &Curves<'_>,
+        moves: Moves<'_>,
+        warnings: &mut Vec<Warning>,
+    ) -> Result<(), FormatError> {
+        let mut sink = text_sink::TextSink::new(stream, curves);
+        self.fill(&mut sink, curves, moves, warnings)?;
+        sink.finish().map_err(|e| FormatError::io(self.file, e))
     }
 
     #[cfg(feature = "usdc")]
