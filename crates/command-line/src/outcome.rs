@@ -3,7 +3,7 @@
 use std::io::{self, Write};
 use std::process::ExitCode;
 
-use crate::interrupt;
+use crate::{interrupt, snapshot};
 
 /// How a program ended, as its exit code says it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,6 +14,9 @@ pub enum Outcome {
     Wanting,
     /// 2: could not; bad input or usage.
     Failed,
+    /// 75: stopped by a signal or a time limit with its work kept; the same command goes on from there. Schedulers
+    /// take it (`EX_TEMPFAIL` of sysexits.h) for a reason to start the task again.
+    TryAgain,
     /// 130: stopped by Ctrl-C.
     Interrupted,
 }
@@ -24,16 +27,19 @@ impl From<Outcome> for ExitCode {
             Outcome::Good => 0,
             Outcome::Wanting => 1,
             Outcome::Failed => 2,
+            Outcome::TryAgain => 75,
             Outcome::Interrupted => 130,
         })
     }
 }
 
-/// Runs a program's body: handles Ctrl-C, prints errors with their causes, returns the exit code.
+/// Runs a program's body: handles signals, prints errors with their causes, returns the exit code.
 ///
 /// A typed error of a library converts by `?`. A reader that closes the pipe early (`| head`) is no
 /// error: the program ends quietly with 0.
 pub fn run(body: impl FnOnce() -> anyhow::Result<Outcome>) -> ExitCode {
+    // First of all: other threads must not see the signal it waits for.
+    snapshot::install();
     interrupt::install();
     match body() {
         Ok(outcome) => outcome.into(),

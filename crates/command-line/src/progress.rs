@@ -8,6 +8,9 @@ use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 /// How long work runs before a bar appears.
 const PATIENCE: Duration = Duration::from_secs(1);
 
+const LEFT_GUESSED: &str = "{msg} [{bar:30}] {percent:>3} %  {elapsed} elapsed, {eta} left";
+const LEFT_TOLD: &str = "{msg} [{bar:30}] {percent:>3} %  {elapsed} elapsed{prefix}";
+
 /// A progress bar on stderr; silent when that is no terminal, and during the first second.
 #[derive(Clone, Debug)]
 pub struct Bar {
@@ -19,8 +22,7 @@ pub struct Bar {
 #[must_use]
 pub fn progress_bar(len: u64, label: &str) -> Bar {
     let bar = ProgressBar::with_draw_target(Some(len), ProgressDrawTarget::hidden());
-    let template = "{msg} [{bar:30}] {percent:>3} %  {elapsed} elapsed, {eta} left";
-    if let Ok(style) = ProgressStyle::with_template(template) {
+    if let Ok(style) = ProgressStyle::with_template(LEFT_GUESSED) {
         bar.set_style(style.progress_chars("=> "));
     }
     bar.set_message(label.to_owned());
@@ -48,6 +50,14 @@ impl Bar {
     /// Changes the words before the bar.
     pub fn set_label(&self, label: &str) {
         self.bar.set_message(label.to_owned());
+    }
+
+    /// Says how much longer it takes, in words that stand in for the bar's own estimate.
+    pub(crate) fn set_left(&self, words: &str) {
+        if let Ok(style) = ProgressStyle::with_template(LEFT_TOLD) {
+            self.bar.set_style(style.progress_chars("=> "));
+        }
+        self.bar.set_prefix(words.to_owned());
     }
 
     /// Prints a line above the bar, on stderr; a plain line when there is no bar.
