@@ -6,8 +6,9 @@ use groom_formats::Format;
 use hair_render::Aov;
 use strict_yaml::{Fault, locate, nearest};
 
+use crate::outputs::sheet_layout;
 use crate::schema::{Attributes, EnvironmentSource, Pipeline};
-use crate::{material, sheet};
+use crate::stage::material;
 
 /// A picture of more pixels than this is taken for a slip: it would need gigabytes.
 const MOST_PIXELS: u64 = 1 << 28;
@@ -188,7 +189,7 @@ impl Check<'_> {
         if let Some(sheet) = &pipeline.sheet {
             self.need(sheet.columns != Some(0), "sheet.columns", 0, "at least 1");
             self.need(sheet.gap <= 1024, "sheet.gap", sheet.gap, "at most 1024 pixels");
-            let (width, height) = sheet::layout(sheet, &pipeline.render).size(pipeline.turntable.frames);
+            let (width, height) = sheet_layout(sheet, &pipeline.render).size(pipeline.turntable.frames);
             self.pixels("sheet", width, height);
         }
     }
@@ -281,7 +282,7 @@ mod tests {
     use super::*;
 
     fn found(text: &str) -> Vec<String> {
-        let pipeline = crate::yaml::parse(text).unwrap();
+        let pipeline = crate::expand::yaml::parse(text).unwrap();
         faults(&pipeline, Path::new("turn.yaml"), text).iter().map(ToString::to_string).collect()
     }
 

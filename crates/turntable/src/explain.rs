@@ -36,7 +36,8 @@ impl Plan {
         };
         let frames = due(|kind| matches!(kind, StepKind::Frame { .. }));
         let converts = due(|kind| *kind == StepKind::Convert);
-        let pipeline = &self.pipeline;
+        // What is left out of the first variant; the others may differ in it.
+        let pipeline = &self.variants[0].pipeline;
         let cases = [
             (!frames && !converts, "loading the groom", "nothing that is made needs it"),
             (!frames, "building the scene", "no frame has to be rendered"),

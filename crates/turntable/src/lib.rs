@@ -27,22 +27,21 @@
 mod check;
 mod digest;
 mod error;
+mod expand;
 mod explain;
 mod frame_file;
 mod frames;
 mod manifest;
-mod material;
+mod outputs;
 mod plan;
-mod prepare;
 mod report;
 mod reporter;
 mod run;
-mod scene;
 pub mod schema;
-mod sheet;
-mod yaml;
+mod stage;
 
 pub use error::TurntableError;
+pub use expand::Variant;
 pub use explain::Remark;
 pub use frames::{FrameRange, FrameRangeError};
 pub use plan::{Options, Plan, State, Step, StepKind};

@@ -4,9 +4,11 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use crate::digest::{Digest, Ingredients};
+use crate::expand::{Expanded, Variant, expand};
 use crate::manifest::Manifest;
-use crate::schema::Pipeline;
-use crate::{Fault, FrameRange, TurntableError, check, frame_file, material, yaml};
+use crate::outputs::{self, Wanted};
+use crate::stage::{ingredients, views};
+use crate::{Fault, FrameRange, TurntableError, frame_file};
 
 /// What the caller asks for beside the file.
 #[derive(Clone, Debug, Default)]
@@ -57,11 +59,20 @@ pub enum StepKind {
     },
     /// The contact sheet.
     Sheet,
+    /// A film: its place in `video`.
+    Video {
+        /// Which of the pipeline's films, from 0.
+        index: usize,
+    },
+    /// The page that shows the result.
+    Page,
 }
 
 /// One output.
 #[derive(Clone, Debug)]
 pub struct Step {
+    /// Which variant it shows, as a place among [`Plan::variants`]; none for what shows several.
+    pub variant: Option<usize>,
     /// What it is.
     pub kind: StepKind,
     /// Its path inside the output folder.
@@ -75,11 +86,11 @@ pub struct Step {
 /// them: no groom is loaded and no scene built.
 #[derive(Debug)]
 pub struct Plan {
-    pub(crate) pipeline: Pipeline,
     pub(crate) base: PathBuf,
     pub(crate) output: PathBuf,
     pub(crate) options: Options,
     pub(crate) name: String,
+    pub(crate) variants: Vec<Variant>,
     steps: Vec<Step>,
 }
 
@@ -90,40 +101,20 @@ impl Plan {
     /// [`TurntableError::Pipeline`] with every fault of the file, [`TurntableError::NoSuchFrame`], or
     /// [`TurntableError::Io`] when an input cannot be read.
     pub fn new(file: &Path, options: Options) -> Result<Plan, TurntableError> {
-        let text = text_of(file)?;
-        let pipeline = yaml::parse_with(&text, &options.settings).map_err(|fault| {
-            let place = fault.place.map(|p| (p.line, p.column));
-            let (file, message) = (file.to_owned(), fault.message);
-            TurntableError::Pipeline(vec![Fault { file, place, key: String::new(), message }])
-        })?;
-        let mut faults = check::faults(&pipeline, file, &text);
-        faults.iter_mut().for_each(|fault| name_flag(fault, &options.settings));
-        if !faults.is_empty() {
-            return Err(TurntableError::Pipeline(faults));
-        }
-        let stem = file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let name = pipeline.name.clone().unwrap_or_else(|| stem.clone());
-        let asked = options.output.clone().or_else(|| pipeline.output.clone());
-        let output = asked.unwrap_or_else(|| Path::new("out").join(stem));
+        let Expanded { name, output, variants, inputs } = expand(file, &options)?;
         let base = file.parent().unwrap_or(Path::new("")).to_owned();
-        let mut plan = Plan { pipeline, base, output, options, name, steps: Vec::new() };
+        let mut plan = Plan { base, output, options, name, variants, steps: Vec::new() };
         plan.steps = plan.look()?;
-        plan.spare_inputs(file)?;
+        plan.spare_inputs(file, inputs)?;
         Ok(plan)
     }
 
     /// Refuses a plan that would write over what it reads.
-    fn spare_inputs(&self, file: &Path) -> Result<(), TurntableError> {
-        let pipeline = &self.pipeline;
-        let named = [
-            pipeline.groom.file.as_ref(),
-            pipeline.mesh.as_ref().map(|m| &m.file),
-            pipeline.lights.environment.as_ref().and_then(|e| e.file.as_ref()),
-        ];
-        let material = pipeline.material.files(&self.base)?;
-        let inputs = named.into_iter().flatten().map(|input| self.base.join(input)).chain([file.to_owned()]);
-        let inputs = inputs.chain(material);
-        let inputs: Vec<PathBuf> = inputs.filter_map(|input| input.canonicalize().ok()).collect();
+    fn spare_inputs(&self, file: &Path, mut inputs: Vec<PathBuf>) -> Result<(), TurntableError> {
+        for variant in &self.variants {
+            inputs.extend(ingredients::files(&variant.pipeline, &self.base)?);
+        }
+        let inputs: BTreeSet<PathBuf> = inputs.iter().filter_map(|input| input.canonicalize().ok()).collect();
         let own = [Path::new("manifest.json"), Path::new("report.json"), Path::new("report.html")];
         let outputs = self.steps.iter().map(|s| s.output.as_path()).chain(own);
         let faults: Vec<Fault> = outputs
@@ -135,6 +126,12 @@ impl Plan {
             })
             .collect();
         if faults.is_empty() { Ok(()) } else { Err(TurntableError::Pipeline(faults)) }
+    }
+
+    /// What is rendered: one for every combination of the pipeline's `matrix`, one where there is none.
+    #[must_use]
+    pub fn variants(&self) -> &[Variant] {
+        &self.variants
     }
 
     /// What the pipeline is called.
@@ -161,57 +158,51 @@ impl Plan {
         self.steps.iter().all(|s| matches!(s.state, State::UpToDate | State::NotAsked))
     }
 
-    /// Azimuth of frame `number` (from 1) in degrees, 0..360.
-    pub(crate) fn azimuth(&self, number: u32) -> f64 {
-        let turn = &self.pipeline.turntable;
-        // A full circle ends where it began, an arc shows both its ends.
-        let full = turn.degrees.abs() == 360.0;
-        let gaps = if full { turn.frames } else { turn.frames.saturating_sub(1).max(1) };
-        (turn.start + turn.degrees * f64::from(number - 1) / f64::from(gaps)).rem_euclid(360.0)
-    }
-
     fn look(&self) -> Result<Vec<Step>, TurntableError> {
         let manifest = Manifest::open(&self.output);
-        let groom = self.groom_digest()?;
-        let scene = self.scene_digest(&groom)?;
-        let made = |output: PathBuf, kind: StepKind, digest: Digest| {
-            let state = match manifest.holds(&output, &digest) {
-                _ if !self.output.join(&output).exists() => State::Missing,
-                Some(true) => State::UpToDate,
-                _ => State::Stale,
-            };
-            Step { kind, output, state, digest }
-        };
-        let convert = self.pipeline.convert.iter().map(|path| {
-            let digest = Ingredients::of("convert").digest(&groom).word(&path.to_string_lossy()).finish();
-            made(path.clone(), StepKind::Convert, digest)
-        });
-        let mut steps: Vec<Step> = convert.collect();
-        let frames = self.look_at_frames(&scene, &manifest)?;
-        let tone = |step: &str| Ingredients::of(step).settings(&self.pipeline.tone);
-        let mut after = Vec::new();
-        if self.pipeline.tone.frames {
-            after.extend(frames.iter().filter(|f| f.state != State::NotAsked).map(|frame| {
-                let digest = tone("preview").digest(&frame.digest).finish();
-                let StepKind::Frame { number, .. } = frame.kind else { return frame.clone() };
-                made(frame.output.with_extension("png"), StepKind::Preview { number }, digest)
-            }));
+        let there = self.sound_frames(&manifest);
+        let mut converts = Vec::new();
+        let mut frames = Vec::new();
+        for index in 0..self.variants.len() {
+            let pipeline = &self.variants[index].pipeline;
+            let groom = ingredients::groom(pipeline, &self.base)?;
+            for path in &pipeline.convert {
+                let digest = Ingredients::of("convert").digest(&groom).word(&path.to_string_lossy()).finish();
+                let output = Path::new(&self.variants[index].id).join(path);
+                converts.push(self.made(&manifest, Some(index), StepKind::Convert, output, digest));
+            }
+            frames.extend(self.look_at_frames(index, &groom, &there)?);
         }
-        if let Some(sheet) = &self.pipeline.sheet {
-            let digest =
-                frames.iter().fold(tone("sheet").settings(sheet), |i, f| i.digest(&f.digest)).finish();
-            let mut step = made(sheet.file.clone(), StepKind::Sheet, digest);
-            let is_there =
-                |f: &Step| self.sound_frame(&f.output, &manifest).is_some_and(|d| d == f.digest.as_str());
-            let lacking = |f: &Step| f.state == State::NotAsked && !is_there(f);
-            if step.state != State::UpToDate && frames.iter().any(lacking) {
+        let is_there = |f: &Step| there.get(&f.output).is_some_and(|d| d == f.digest.as_str());
+        let after = outputs::wanted(&self.variants, &frames).into_iter().map(|wanted| {
+            let Wanted { variant, kind, output, digest, needs } = wanted;
+            let mut step = self.made(&manifest, variant, kind, output, digest);
+            // What needs frames that nobody asked for, and that are not there, waits for them.
+            let lacking = |&i: &usize| frames[i].state == State::NotAsked && !is_there(&frames[i]);
+            if step.state != State::UpToDate && needs.iter().any(lacking) {
                 step.state = State::NotAsked;
             }
-            after.push(step);
-        }
-        steps.extend(frames);
-        steps.extend(after);
-        Ok(steps)
+            step
+        });
+        let after: Vec<Step> = after.collect();
+        Ok(converts.into_iter().chain(frames).chain(after).collect())
+    }
+
+    /// A step whose output the manifest answers for.
+    fn made(
+        &self,
+        manifest: &Manifest,
+        variant: Option<usize>,
+        kind: StepKind,
+        output: PathBuf,
+        digest: Digest,
+    ) -> Step {
+        let state = match manifest.holds(&output, &digest) {
+            _ if !self.output.join(&output).exists() => State::Missing,
+            Some(true) => State::UpToDate,
+            _ => State::Stale,
+        };
+        Step { variant, kind, output, state, digest }
     }
 
     /// The digest of a frame that is whole and undamaged.
@@ -225,20 +216,26 @@ impl Plan {
         sound.then_some(digest)
     }
 
-    fn look_at_frames(&self, scene: &Digest, manifest: &Manifest) -> Result<Vec<Step>, TurntableError> {
-        let count = self.pipeline.turntable.frames;
+    fn look_at_frames(
+        &self,
+        variant: usize,
+        groom: &Digest,
+        there: &BTreeMap<PathBuf, String>,
+    ) -> Result<Vec<Step>, TurntableError> {
+        let Variant { id, pipeline, .. } = &self.variants[variant];
+        let count = pipeline.turntable.frames;
         if let Some(asked) = &self.options.frames
             && !asked.iter().any(|number| (1..=count).contains(&number))
         {
             return Err(TurntableError::NoSuchFrame { asked: asked.to_string(), count });
         }
-        let there = self.sound_frames(manifest);
+        let scene = ingredients::scene(pipeline, groom, &self.base)?;
         let by_digest: BTreeMap<&str, &PathBuf> =
             there.iter().map(|(path, digest)| (digest.as_str(), path)).collect();
         let step = |number: u32| {
-            let azimuth = self.azimuth(number);
-            let digest = self.frame_digest(scene, azimuth);
-            let output = Path::new("frames").join(format!("frame.{number:04}.exr"));
+            let azimuth = views::azimuth(&pipeline.turntable, number);
+            let digest = ingredients::frame(pipeline, &scene, number);
+            let output = Path::new("frames").join(id).join(format!("frame.{number:04}.exr"));
             let path = self.output.join(&output);
             let state = if self.options.frames.as_ref().is_some_and(|asked| !asked.contains(number)) {
                 State::NotAsked
@@ -251,7 +248,7 @@ impl Plan {
             } else {
                 State::Missing
             };
-            Step { kind: StepKind::Frame { number, azimuth }, output, state, digest }
+            Step { variant: Some(variant), kind: StepKind::Frame { number, azimuth }, output, state, digest }
         };
         Ok((1..=count).map(step).collect())
     }
@@ -264,11 +261,21 @@ impl Plan {
             .collect()
     }
 
-    /// The EXR files of the output folder's `frames`, as paths inside the output folder.
+    /// The EXR files of the output folder's `frames` and the folders in it, as paths inside the output folder.
     fn frame_files(&self) -> BTreeSet<PathBuf> {
-        let Ok(entries) = std::fs::read_dir(self.output.join("frames")) else { return BTreeSet::new() };
-        let names = entries.flatten().map(|e| Path::new("frames").join(e.file_name()));
-        names.filter(|p| p.extension().is_some_and(|e| e == "exr") && !is_hidden(p)).collect()
+        let mut found = BTreeSet::new();
+        let mut folders = vec![PathBuf::from("frames")];
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(self.output.join(&folder)).into_iter().flatten().flatten() {
+                let path = folder.join(entry.file_name());
+                if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
+                    folders.push(path);
+                } else if path.extension().is_some_and(|e| e == "exr") && !is_hidden(&path) {
+                    found.insert(path);
+                }
+            }
+        }
+        found
     }
 
     /// Frames in the output folder that are none of this turntable's: left from a longer one.
@@ -277,75 +284,6 @@ impl Plan {
         let own: BTreeSet<&Path> = self.steps.iter().map(|s| s.output.as_path()).collect();
         self.frame_files().into_iter().filter(|path| !own.contains(path.as_path())).collect()
     }
-
-    fn groom_digest(&self) -> Result<Digest, TurntableError> {
-        let source = &self.pipeline.groom;
-        let mut digest = Ingredients::of("groom");
-        if let Some(file) = &source.file {
-            let ending = file.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-            digest = digest.word(&ending).file(&self.base.join(file))?;
-        }
-        let settings = (&source.sample, source.up, source.meters_per_unit, source.repair);
-        Ok(digest.settings(&settings).settings(&self.pipeline.attributes).finish())
-    }
-
-    fn scene_digest(&self, groom: &Digest) -> Result<Digest, TurntableError> {
-        let mut digest =
-            material::added(Ingredients::of("scene").digest(groom), &self.pipeline.material, &self.base)?;
-        if let Some(mesh) = &self.pipeline.mesh {
-            digest = digest.file(&self.base.join(&mesh.file))?;
-            digest = digest.settings(&(mesh.up, mesh.meters_per_unit, mesh.albedo));
-        }
-        digest = digest.settings(&self.pipeline.lights.area);
-        if let Some(environment) = &self.pipeline.lights.environment {
-            if let Some(file) = &environment.file {
-                digest = digest.file(&self.base.join(file))?;
-            }
-            let e = environment;
-            digest = digest.settings(&(e.constant, e.studio, e.rotation, e.intensity));
-        }
-        Ok(digest.finish())
-    }
-
-    /// The azimuth counts, the frame's number and how many there are do not: the same view is the
-    /// same picture in a turntable of 4 and of 8.
-    fn frame_digest(&self, scene: &Digest, azimuth: f64) -> Digest {
-        let digest = Ingredients::of("frame").digest(scene);
-        let digest = digest.settings(&self.pipeline.camera).settings(&self.pipeline.render);
-        digest.settings(&(azimuth, self.pipeline.turntable.turn)).finish()
-    }
-}
-
-/// The text of a pipeline file.
-fn text_of(file: &Path) -> Result<String, TurntableError> {
-    let bytes = std::fs::read(file).map_err(|e| TurntableError::io(file, "read", e))?;
-    String::from_utf8(bytes).map_err(|error| {
-        let before = &error.as_bytes()[..error.utf8_error().valid_up_to()];
-        let lines = before.split(|&b| b == b'\n');
-        let column = |last| String::from_utf8_lossy(last).chars().count() + 1;
-        let place = lines.clone().next_back().map(|last| (lines.count(), column(last)));
-        let message = format!("byte {} is not UTF-8, as YAML has to be", before.len());
-        TurntableError::Pipeline(vec![Fault { file: file.to_owned(), place, key: String::new(), message }])
-    })
-}
-
-/// Names the flag that brought a fault in: the file is not to blame, and its place would mislead.
-fn name_flag(fault: &mut Fault, settings: &[String]) {
-    let within = |inner: &str, outer: &str| {
-        inner.strip_prefix(outer).is_some_and(|rest| rest.is_empty() || rest.starts_with('.'))
-    };
-    let path = |setting: &str| setting.split('=').next().unwrap_or_default().trim().to_owned();
-    // The last one laid over counts.
-    let Some(setting) = settings.iter().rev().find(|s| {
-        let path = path(s);
-        within(&fault.key, &path) || within(&path, &fault.key)
-    }) else {
-        return;
-    };
-    if within(&fault.key, &path(setting)) {
-        fault.place = None;
-    }
-    fault.message += &format!(" (from `--set {setting}`)");
 }
 
 fn is_hidden(path: &Path) -> bool {

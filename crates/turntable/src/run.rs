@@ -5,13 +5,15 @@ use std::time::Instant;
 
 use groom::Groom;
 use groom_formats::WriteOptions;
-use hair_render::{ContactSheet, FrameReport, Metadata, Progress};
+use hair_render::{FrameReport, Metadata, Progress};
 use serde::Serialize;
 
 use crate::frame_file::{self, FrameHeader};
 use crate::manifest::Manifest;
-use crate::scene::{self, Stage};
-use crate::{Event, Plan, Reporter, State, Step, StepKind, TurntableError, prepare, report, sheet};
+use crate::outputs::{self, Finished};
+use crate::schema::Pipeline;
+use crate::stage::{self, Stage, View};
+use crate::{Event, Plan, Reporter, State, Step, StepKind, TurntableError, report};
 
 /// What a run made and how exact its frames are.
 #[derive(Clone, Debug, Default, Serialize)]
@@ -31,6 +33,8 @@ pub struct Summary {
 /// A frame in figures.
 #[derive(Clone, Debug, Serialize)]
 pub struct FrameLine {
+    /// The variant it shows, by its id; empty where the pipeline has no `matrix`.
+    pub variant: String,
     /// Number, from 1.
     pub number: u32,
     /// The EXR, inside the output folder.
@@ -60,18 +64,10 @@ impl Plan {
         run.make_folders()?;
         run.warn_of_left_over();
         let moved = run.move_frames()?;
-        let frames = self.frames().filter(|f| needs_render(f, &moved)).collect::<Vec<_>>();
-        let converts =
-            self.steps().iter().filter(|s| s.kind == StepKind::Convert && is_due(s)).collect::<Vec<_>>();
-        if !frames.is_empty() || !converts.is_empty() {
-            let groom = run.groom()?;
-            run.convert(&groom, &converts)?;
-            if !frames.is_empty() {
-                run.render(groom, &frames)?;
-            }
+        for variant in 0..self.variants.len() {
+            run.variant(variant, &moved)?;
         }
-        run.previews()?;
-        run.sheet()?;
+        run.outputs()?;
         let lines = run.frame_lines();
         run.report(&lines)?;
         let up_to_date = self.steps().iter().filter(|s| s.state == State::UpToDate).count();
@@ -171,10 +167,24 @@ impl<'a> Run<'a> {
         Ok(moved)
     }
 
-    fn groom(&self) -> Result<Groom, TurntableError> {
-        self.reporter.event(&Event::Stage("preparing the groom"));
-        let pipeline = &self.plan.pipeline;
-        prepare::groom(&self.plan.base, &pipeline.groom, &pipeline.attributes, self.reporter)
+    /// Makes what is due of one variant: converted files and frames.
+    fn variant(&mut self, index: usize, moved: &[&Step]) -> Result<(), TurntableError> {
+        let plan = self.plan;
+        let own = || plan.steps().iter().filter(|s| s.variant == Some(index));
+        let converts: Vec<&Step> = own().filter(|s| s.kind == StepKind::Convert && is_due(s)).collect();
+        let is_frame = |s: &&Step| matches!(s.kind, StepKind::Frame { .. });
+        let frames: Vec<&Step> = own().filter(is_frame).filter(|f| needs_render(f, moved)).collect();
+        let pipeline = &plan.variants[index].pipeline;
+        if !converts.is_empty() {
+            let groom = stage::groom(pipeline, &plan.base, self.reporter)?;
+            self.convert(&groom, &converts)?;
+        }
+        if !frames.is_empty() {
+            self.stop_if_asked()?;
+            let mut stage = Stage::set(pipeline, &plan.base, self.reporter)?;
+            self.render(&mut stage, pipeline, &frames)?;
+        }
+        Ok(())
     }
 
     fn convert(&mut self, groom: &Groom, steps: &[&Step]) -> Result<(), TurntableError> {
@@ -190,25 +200,19 @@ impl<'a> Run<'a> {
         Ok(())
     }
 
-    fn render(&mut self, groom: Groom, frames: &[&Step]) -> Result<(), TurntableError> {
-        self.stop_if_asked()?;
-        self.reporter.event(&Event::Stage("building the scene"));
-        let pipeline = &self.plan.pipeline;
-        let mut stage = Stage::set(
-            groom,
-            &pipeline.material,
-            pipeline.mesh.as_ref(),
-            &pipeline.lights,
-            pipeline.turntable.turn,
-            &self.plan.base,
-        )?;
+    fn render(
+        &mut self,
+        stage: &mut Stage,
+        pipeline: &Pipeline,
+        frames: &[&Step],
+    ) -> Result<(), TurntableError> {
         for (index, step) in frames.iter().enumerate() {
             let StepKind::Frame { number, azimuth } = step.kind else { continue };
             self.stop_if_asked()?;
             let (index, of) = (index as u32, frames.len() as u32);
             self.reporter.event(&Event::FrameBegins { number, index, of });
             let watch = Watch { reporter: self.reporter, index, of };
-            let report = self.render_frame(&mut stage, step, azimuth, &watch)?;
+            let report = self.render_frame(stage, pipeline, step, (number, azimuth), &watch)?;
             self.manifest.record(&step.output, &step.digest)?;
             self.made(&step.output);
             let (seconds, relative_error) = (report.seconds, report.relative_error);
@@ -224,26 +228,27 @@ impl<'a> Run<'a> {
     fn render_frame(
         &self,
         stage: &mut Stage,
+        pipeline: &Pipeline,
         step: &Step,
-        azimuth: f64,
+        (number, azimuth): (u32, f64),
         watch: &Watch,
     ) -> Result<FrameReport, TurntableError> {
-        let pipeline = &self.plan.pipeline;
-        let aspect = f64::from(pipeline.render.width) / f64::from(pipeline.render.height);
-        let scene = stage.scene(azimuth.to_radians())?;
-        let camera = scene::camera(scene, &pipeline.camera, azimuth, aspect)?;
-        // The digest holds the pipeline's seed and the azimuth.
+        let View { scene, camera, frame_rate, exposure_seconds } = stage.view(number)?;
+        // The digest holds the pipeline's seed and the view.
         let seed = step.digest.number();
-        let settings = scene::render_settings(&pipeline.render, seed, self.plan.options.threads);
-        let frame = hair_render::render(scene, &camera, &settings, watch).map_err(|error| match error {
-            hair_render::RenderError::Cancelled => TurntableError::Interrupted,
-            other => other.into(),
-        })?;
+        let settings = stage::render_settings(&pipeline.render, seed, self.plan.options.threads);
+        let frame =
+            hair_render::render_moving(scene, &camera, &settings, watch).map_err(|error| match error {
+                hair_render::RenderError::Cancelled => TurntableError::Interrupted,
+                other => other.into(),
+            })?;
         let extra = [("turntable", self.plan.name.clone()), ("azimuth", azimuth.to_string())];
         let metadata = Metadata {
             command: self.plan.options.command.clone(),
             digest: step.digest.as_str().to_owned(),
-            camera: Some(camera),
+            camera: Some(camera.at(0.5)),
+            frame_rate,
+            exposure_seconds,
             extra: extra.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
             ..Metadata::default()
         };
@@ -251,41 +256,24 @@ impl<'a> Run<'a> {
         Ok(frame.report)
     }
 
-    fn previews(&mut self) -> Result<(), TurntableError> {
-        let mapping = scene::tone_mapping(&self.plan.pipeline.tone);
-        for step in
-            self.plan.steps().iter().filter(|s| matches!(s.kind, StepKind::Preview { .. }) && is_due(s))
-        {
-            self.stop_if_asked()?;
-            let frame = frame_file::read_beauty(&self.path(step).with_extension("exr"))?;
-            hair_render::tone_map(&frame, &mapping).write_png(&self.path(step))?;
-            self.manifest.record(&step.output, &step.digest)?;
-            self.made(&step.output);
-        }
-        Ok(())
-    }
-
-    fn sheet(&mut self) -> Result<(), TurntableError> {
-        let due = self.plan.steps().iter().find(|s| s.kind == StepKind::Sheet && is_due(s));
-        let (Some(step), Some(settings)) = (due, &self.plan.pipeline.sheet) else { return Ok(()) };
-        self.stop_if_asked()?;
-        self.reporter.event(&Event::Stage("making the contact sheet"));
-        let pipeline = &self.plan.pipeline;
-        let mapping = scene::tone_mapping(&pipeline.tone);
-        let background = background_bytes(&mapping);
-        // The pipeline's check keeps sheets far below what cannot be.
-        let layout = sheet::layout(settings, &pipeline.render);
-        let Some(mut sheet) = ContactSheet::new(layout, pipeline.turntable.frames, background) else {
-            return Ok(());
+    /// Makes what is due of what is made of frames.
+    fn outputs(&mut self) -> Result<(), TurntableError> {
+        let plan = self.plan;
+        let frames: Vec<&Step> = plan.frames().collect();
+        let finished = Finished {
+            output: &plan.output,
+            variants: &plan.variants,
+            frames: &frames,
+            reporter: self.reporter,
         };
-        for frame in self.plan.frames() {
-            let StepKind::Frame { number, .. } = frame.kind else { continue };
-            let picture = frame_file::read_beauty(&self.path(frame))?;
-            sheet.place(number, &hair_render::tone_map(&picture, &mapping));
+        let is_output = |kind: StepKind| !matches!(kind, StepKind::Convert | StepKind::Frame { .. });
+        for step in plan.steps().iter().filter(|s| is_output(s.kind) && is_due(s)) {
+            self.stop_if_asked()?;
+            if outputs::make(step, &finished)? {
+                self.manifest.record(&step.output, &step.digest)?;
+                self.made(&step.output);
+            }
         }
-        sheet.finish().write_png(&self.path(step))?;
-        self.manifest.record(&step.output, &step.digest)?;
-        self.made(&step.output);
         Ok(())
     }
 
@@ -297,7 +285,9 @@ impl<'a> Run<'a> {
             let FrameHeader { digest, spp, seconds, relative_error, .. } = header;
             let rendered = self.made.contains(&step.output) && !matches!(step.state, State::Elsewhere(_));
             let file = step.output.clone();
+            let variant = self.plan.variants.get(step.variant?)?.id.clone();
             (digest == step.digest.as_str()).then_some(FrameLine {
+                variant,
                 number,
                 file,
                 azimuth,
@@ -313,7 +303,7 @@ impl<'a> Run<'a> {
     /// Writes the error report when it would say something new.
     fn report(&mut self, lines: &[FrameLine]) -> Result<(), TurntableError> {
         let threads = self.plan.frames().find_map(|f| Some(frame_file::header(&self.path(f))?.threads));
-        let report = report::of_frames(&self.plan.name, &self.plan.pipeline, threads, lines);
+        let report = report::of_frames(&self.plan.name, &self.plan.variants[0].pipeline, threads, lines);
         for (name, text) in [("report.json", report.to_json()?), ("report.html", report.to_html()?)] {
             let path = self.plan.output.join(name);
             if std::fs::read_to_string(&path).is_ok_and(|old| old == text) {
@@ -325,13 +315,6 @@ impl<'a> Run<'a> {
         }
         Ok(())
     }
-}
-
-/// The background as it comes out of the tone mapping.
-fn background_bytes(mapping: &hair_render::ToneMapping) -> [u8; 3] {
-    let empty = frame_file::unmeasured((1, 1), vec![glam::Vec3::ZERO], vec![0.0]);
-    let rgba = hair_render::tone_map(&empty, mapping).rgba;
-    [rgba[0], rgba[1], rgba[2]]
 }
 
 /// Passes the renderer's progress on.

@@ -1,8 +1,7 @@
-//! From what the pipeline says to what the renderer takes.
+//! From what a pipeline says to what the renderer takes.
 
 use std::path::Path;
 
-use fibre_material::MaterialFile;
 use glam::{Affine3A, DMat3, DVec3, Mat3, Vec3};
 use groom::Groom;
 use hair_render::{
@@ -13,34 +12,30 @@ use moving_mesh::TriangleMesh;
 
 use crate::TurntableError;
 use crate::schema::{
-    AreaSource, Axis, CameraSettings, EnvironmentSource, Lights, MeshSource, Render, Tone, ToneCurve, Turning,
+    AreaSource, Axis, CameraSettings, EnvironmentSource, MeshSource, Pipeline, Render, Tone, ToneCurve,
+    Turning,
 };
 
 /// Everything of a scene but its lights' direction, which may turn from frame to frame.
-pub(crate) struct Stage {
+pub(super) struct Lit {
     description: SceneDescription,
     turning: Turning,
     built: Option<Scene>,
 }
 
-impl Stage {
+impl Lit {
     /// Loads what the scene needs besides the groom.
-    pub fn set(
-        groom: Groom,
-        material: &MaterialFile,
-        mesh: Option<&MeshSource>,
-        lights: &Lights,
-        turning: Turning,
-        base: &Path,
-    ) -> Result<Stage, TurntableError> {
-        let fibre = material.clone().open_all(base)?;
+    pub fn set(groom: Groom, pipeline: &Pipeline, base: &Path) -> Result<Lit, TurntableError> {
+        let fibre = pipeline.material.clone().open_all(base)?;
         let hair = vec![HairObject::still(groom, HairMaterial { fibre, ..HairMaterial::default() })];
+        let mesh = pipeline.mesh.as_ref();
         let meshes = mesh.map(|source| mesh_object(source, base)).transpose()?.into_iter().collect();
+        let lights = &pipeline.lights;
         let environment = lights.environment.as_ref().map(|e| environment_of(e, base)).transpose()?;
         let lights = lights.area.iter().map(area_light).collect::<Result<_, _>>()?;
         let description =
             SceneDescription { hair, meshes, environment, lights, ..SceneDescription::default() };
-        Ok(Stage { description, turning, built: None })
+        Ok(Lit { description, turning: pipeline.turntable.turn, built: None })
     }
 
     /// The scene for a camera at `azimuth` (radians). Built once where only the camera turns.

@@ -1,0 +1,63 @@
+//! Where the strands come from.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+/// Where the strands come from: a file or a made-up sample, one of the two.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct GroomSource {
+    /// A groom file, relative to the pipeline file.
+    pub file: Option<PathBuf>,
+    /// A groom the program makes itself.
+    pub sample: Option<SampleSource>,
+    /// Which axis of the file points up; the file's own word when absent.
+    pub up: Option<Axis>,
+    /// Metres in one unit of the file; the file's own word, or 1, when absent.
+    pub meters_per_unit: Option<f64>,
+    /// Mend what is merely odd in a file (zero-length segments, one-point strands).
+    pub repair: bool,
+}
+
+/// A groom the program makes itself.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct SampleSource {
+    /// Kind of hair.
+    pub style: Style,
+    /// How many strands.
+    pub strands: u32,
+    /// Points a strand.
+    pub points: u32,
+    /// Everything random follows from it.
+    pub seed: u64,
+}
+
+impl Default for SampleSource {
+    fn default() -> Self {
+        SampleSource { style: Style::Wavy, strands: 5000, points: 24, seed: 1 }
+    }
+}
+
+/// Kind of made-up hair.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Style {
+    /// Straight hair.
+    Straight,
+    /// Wavy hair.
+    Wavy,
+    /// Curly hair.
+    Curly,
+}
+
+/// An axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Axis {
+    /// The second axis.
+    Y,
+    /// The third axis.
+    Z,
+}

@@ -1,0 +1,41 @@
+//! The contact sheet.
+
+use std::path::PathBuf;
+
+use serde::{Deserialize, Serialize};
+
+/// The contact sheet.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Sheet {
+    /// The PNG, in the output folder.
+    pub file: PathBuf,
+    /// Pictures in a row; where there is a `matrix`, all of its last axis when absent, else about square.
+    pub columns: Option<u32>,
+    /// Pixels between frames.
+    pub gap: u32,
+    /// Write each frame's number in its corner.
+    pub labels: bool,
+    /// What stands under each picture.
+    pub captions: Vec<Caption>,
+}
+
+impl Default for Sheet {
+    fn default() -> Self {
+        Sheet { file: PathBuf::from("sheet.png"), columns: None, gap: 4, labels: true, captions: Vec::new() }
+    }
+}
+
+/// Something to be written under a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Caption {
+    /// The names of the variant's settings.
+    Variant,
+    /// The frame's number.
+    Frame,
+    /// The estimated relative error.
+    Error,
+    /// Seconds the frame took to render.
+    Seconds,
+}
