@@ -17,14 +17,28 @@
 //! # Ok::<(), strict_yaml::YamlFault>(())
 //! ```
 
+mod build;
+mod document;
 mod fault;
+mod include;
 mod locate;
 mod nearest;
 mod read;
+mod setting;
+mod source;
+mod tree;
 mod twins;
+mod typed;
+mod variables;
 mod words;
+mod write;
 
+pub use document::{Document, DocumentError};
 pub use fault::{Fault, Place, YamlFault};
 pub use locate::locate;
 pub use nearest::nearest;
 pub use read::{parse, parse_with};
+pub use setting::Setting;
+pub use tree::Node;
+pub use typed::Reading;
+pub use write::write;

@@ -14,7 +14,7 @@ use crate::{twins, words};
 /// A [`YamlFault`] with the place of whatever is no YAML, twice there, of another type or unknown; an
 /// unknown key comes with the name that may have been meant.
 pub fn parse<T: DeserializeOwned + Default>(text: &str) -> Result<T, YamlFault> {
-    if text.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#')) {
+    if says_nothing(text) {
         return Ok(T::default());
     }
     check_nesting(text)?;
@@ -28,8 +28,13 @@ pub fn parse<T: DeserializeOwned + Default>(text: &str) -> Result<T, YamlFault> 
     })
 }
 
+/// Whether there are only empty lines and remarks.
+pub(crate) fn says_nothing(text: &str) -> bool {
+    text.lines().all(|line| line.trim().is_empty() || line.trim_start().starts_with('#'))
+}
+
 /// The library's message without its place, which is told apart, in plain words.
-fn in_words(error: &serde_yaml::Error) -> String {
+pub(crate) fn in_words(error: &serde_yaml::Error) -> String {
     let full = error.to_string();
     let cut = full.rfind(" at line ").filter(|_| error.location().is_some());
     words::plain(&full[..cut.unwrap_or(full.len())])
@@ -38,7 +43,7 @@ fn in_words(error: &serde_yaml::Error) -> String {
 /// Brackets deeper than this are an attack: the library takes quadratic time for them.
 const DEEPEST: usize = 128;
 
-fn check_nesting(text: &str) -> Result<(), YamlFault> {
+pub(crate) fn check_nesting(text: &str) -> Result<(), YamlFault> {
     let mut depth = 0_usize;
     for (index, line) in text.lines().enumerate() {
         for (column, c) in line.chars().enumerate() {

@@ -4,7 +4,11 @@ use crate::nearest::nearest;
 
 /// A message in plain words, with the right name of a mistyped one.
 pub(crate) fn plain(text: &str) -> String {
-    unknown(text).or_else(|| doubled(text)).or_else(|| mistaken(text)).unwrap_or_else(|| text.to_owned())
+    unknown(text)
+        .or_else(|| doubled(text))
+        .or_else(|| mistaken(text))
+        .or_else(|| counted(text))
+        .unwrap_or_else(|| text.to_owned())
 }
 
 fn unknown(text: &str) -> Option<String> {
@@ -25,6 +29,16 @@ fn unknown(text: &str) -> Option<String> {
 fn doubled(text: &str) -> Option<String> {
     let (before, key) = text.split_once("duplicate field ")?;
     Some(format!("{before}the key {key} is there twice"))
+}
+
+/// A list of the wrong length.
+fn counted(text: &str) -> Option<String> {
+    let (before, rest) = text.split_once("invalid length ")?;
+    let (found, expected) = rest.split_once(", expected ")?;
+    let count =
+        |words: &str| words.split(|c: char| !c.is_ascii_digit()).rfind(|d| !d.is_empty()).map(str::to_owned);
+    let expected = count(expected).unwrap_or_else(|| expected.to_owned());
+    Some(format!("{before}is a list of {found}, expected {expected} entries"))
 }
 
 /// A value of the wrong type or size: the library names Rust's types.
@@ -53,6 +67,10 @@ fn mistaken(text: &str) -> Option<String> {
         "path string" => "a path",
         "a sequence" => "a list",
         "field identifier" => "a key",
+        "a map" => "keys and values",
+        _ if expected.starts_with("an array of length ") || expected.starts_with("a tuple of size ") => {
+            "a list"
+        }
         _ if expected.starts_with("struct ") => "keys and values",
         _ => expected,
     };

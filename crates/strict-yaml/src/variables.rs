@@ -1,0 +1,247 @@
+//! `${name}` in texts, and what `variables` says it is.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::build::MOST_VALUES;
+use crate::fault::Fault;
+use crate::nearest::nearest;
+use crate::source::{Part, Sources};
+use crate::tree::{Map, Node, Origin, Value};
+
+/// Texts that come to more letters than this by their variables are an attack.
+const MOST_LETTERS: usize = 1 << 20;
+/// Variables that use each other deeper than this are taken for a slip.
+const DEEPEST: usize = 32;
+
+/// A part of a text.
+#[derive(Debug, PartialEq)]
+enum Piece<'t> {
+    Plain(&'t str),
+    Variable(&'t str),
+}
+
+/// The pieces of a text: `${name}` is a variable, `$${` a plain `${`.
+fn pieces(text: &str) -> Result<Vec<Piece<'_>>, String> {
+    let mut pieces = Vec::new();
+    let mut rest = text;
+    while let Some(at) = rest.find("${") {
+        let (before, from) = rest.split_at(at);
+        let after = from.strip_prefix("${").unwrap_or_default();
+        if let Some(before) = before.strip_suffix('$') {
+            pieces.extend([Piece::Plain(before), Piece::Plain("${")]);
+            rest = after;
+            continue;
+        }
+        let (name, after) =
+            after.split_once('}').ok_or("a `${` without its `}`; a plain one is written `$${`")?;
+        if !is_name(name) {
+            return Err(format!("`${{{name}}}` holds no name: letters, digits, `_` and `-`"));
+        }
+        pieces.extend([Piece::Plain(before), Piece::Variable(name)]);
+        rest = after;
+    }
+    pieces.push(Piece::Plain(rest));
+    pieces.retain(|piece| *piece != Piece::Plain(""));
+    Ok(pieces)
+}
+
+fn is_name(name: &str) -> bool {
+    let letters = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
+    name.chars().all(letters) && name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
+}
+
+/// The variables of a document while they are put in.
+pub(crate) struct Variables<'v> {
+    sources: &'v Sources,
+    told: &'v Map,
+    /// Those already worked out; `None` where that failed or is under way.
+    known: BTreeMap<&'v str, Option<Node>>,
+    under_way: Vec<String>,
+    pub(crate) used: BTreeSet<String>,
+    pub(crate) faults: Vec<Fault>,
+    values_left: usize,
+    letters_left: usize,
+}
+
+impl<'v> Variables<'v> {
+    pub(crate) fn new(sources: &'v Sources, told: &'v Map) -> Self {
+        let (known, used, faults) = (BTreeMap::new(), BTreeSet::new(), Vec::new());
+        let under_way = Vec::new();
+        let (values_left, letters_left) = (MOST_VALUES, MOST_LETTERS);
+        let mut new = Variables { sources, told, known, under_way, used, faults, values_left, letters_left };
+        for (name, node) in told {
+            if !is_name(name) {
+                let words = format!("`{name}` is no name for a variable: letters, digits, `_` and `-`");
+                let fault = sources.fault(&node.origin, Part::Key, "variables", words);
+                new.faults.push(fault);
+            }
+        }
+        new
+    }
+
+    /// Works out every variable, so that faults in those nobody uses are told too.
+    pub(crate) fn all(&mut self) {
+        for name in self.told.keys() {
+            if is_name(name) && !self.known.contains_key(name.as_str()) {
+                self.work_out(name);
+            }
+        }
+    }
+
+    /// Puts values in place of names, in everything below `node`, which stands at `key`.
+    pub(crate) fn put_in(&mut self, node: &mut Node, key: &str) {
+        let below = |step: &str| if key.is_empty() { step.to_owned() } else { format!("{key}.{step}") };
+        match &mut node.value {
+            Value::List(list) => {
+                for (index, node) in list.iter_mut().enumerate() {
+                    self.put_in(node, &below(&index.to_string()));
+                }
+            }
+            Value::Map(map) => map.iter_mut().for_each(|(name, node)| self.put_in(node, &below(name))),
+            Value::Text(text) if text.contains("${") => match self.text(text, node.origin.clone()) {
+                Ok(new) => *node = new,
+                Err(message) => {
+                    self.fault(node, key, message);
+                    node.value = Value::Null;
+                }
+            },
+            _ => {}
+        }
+    }
+
+    /// An empty message tells nothing: the fault is told where the variable is.
+    fn fault(&mut self, node: &Node, key: &str, message: String) {
+        if !message.is_empty() {
+            self.faults.push(self.sources.fault(&node.origin, Part::Value, key, message));
+        }
+    }
+
+    fn text(&mut self, text: &str, origin: Origin) -> Result<Node, String> {
+        let pieces = pieces(text)?;
+        if let [Piece::Variable(name)] = *pieces {
+            let mut node = self.value(name)?;
+            node.origin.used = Some(std::sync::Arc::new((name.to_owned(), origin)));
+            return Ok(node);
+        }
+        let mut whole = String::new();
+        for piece in pieces {
+            let part = match piece {
+                Piece::Plain(part) => part.to_owned(),
+                Piece::Variable(name) => self.letters(name)?,
+            };
+            self.letters_left = self
+                .letters_left
+                .checked_sub(part.len())
+                .ok_or_else(|| format!("comes to more than {MOST_LETTERS} letters by its variables"))?;
+            whole += &part;
+        }
+        Ok(Node { value: Value::Text(whole), origin })
+    }
+
+    /// What stands inside a text.
+    fn letters(&mut self, name: &str) -> Result<String, String> {
+        let node = self.value(name)?;
+        match &node.value {
+            Value::Text(text) => Ok(text.clone()),
+            Value::Null => Ok(String::new()),
+            Value::List(_) | Value::Map(_) => {
+                Err(format!("`${{{name}}}` is {} and cannot stand inside a text", node.words()))
+            }
+            _ => Ok(self.sources.written(&node.origin).unwrap_or_default()),
+        }
+    }
+
+    /// The value of a variable, a copy that is counted.
+    fn value(&mut self, name: &str) -> Result<Node, String> {
+        self.used.insert(name.to_owned());
+        if self.under_way.iter().any(|other| other == name) {
+            let way = self.under_way.join("` -> `");
+            return Err(format!("the variable `{name}` is made from itself, by `{way}`"));
+        }
+        let Some((name, _)) = self.told.get_key_value(name) else {
+            return Err(match nearest(name, self.told.keys().map(String::as_str)) {
+                Some(meant) => format!("unknown variable `{name}`, did you mean `{meant}`?"),
+                None if self.told.is_empty() => {
+                    format!("unknown variable `{name}`; give it under `variables` or by `-D {name}=...`")
+                }
+                None => {
+                    let known: Vec<&str> = self.told.keys().map(String::as_str).take(20).collect();
+                    format!("unknown variable `{name}`, there are `{}`", known.join("`, `"))
+                }
+            });
+        };
+        if !self.known.contains_key(name.as_str()) {
+            self.work_out(name);
+        }
+        // What failed there is told there.
+        let Some(node) = self.known.get(name.as_str()).and_then(Option::as_ref) else {
+            return Err(String::new());
+        };
+        let too_much = || format!("comes to more than {MOST_VALUES} values by its variables");
+        let too_long = || format!("comes to more than {MOST_LETTERS} letters by its variables");
+        let (values, letters) = size(node);
+        self.values_left = self.values_left.checked_sub(values).ok_or_else(too_much)?;
+        self.letters_left = self.letters_left.checked_sub(letters).ok_or_else(too_long)?;
+        Ok(node.clone())
+    }
+
+    fn work_out(&mut self, name: &'v str) {
+        let Some(node) = self.told.get(name) else { return };
+        let key = format!("variables.{name}");
+        if self.under_way.len() >= DEEPEST {
+            self.fault(node, &key, format!("variables use each other more than {DEEPEST} deep"));
+            self.known.insert(name, None);
+            return;
+        }
+        let faults = self.faults.len();
+        self.under_way.push(name.to_owned());
+        let mut node = node.clone();
+        self.put_in(&mut node, &key);
+        self.under_way.pop();
+        let good = self.faults.len() == faults;
+        self.known.insert(name, good.then_some(node));
+    }
+}
+
+/// How many values and letters a tree holds.
+fn size(node: &Node) -> (usize, usize) {
+    let sum = |nodes: &mut dyn Iterator<Item = &Node>| {
+        nodes.map(size).fold((1, 0), |(values, letters), (v, l)| (values + v, letters + l))
+    };
+    match &node.value {
+        Value::Text(text) => (1, text.len()),
+        Value::List(list) => sum(&mut list.iter()),
+        Value::Map(map) => sum(&mut map.values()),
+        _ => (1, 0),
+    }
+}
+
+/// How many values a tree holds.
+pub(crate) fn count(node: &Node) -> usize {
+    size(node).0
+}
+
+#[cfg(test)]
+#[allow(clippy::unwrap_used)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn dollars_and_names_are_told_apart() {
+        use Piece::{Plain, Variable};
+        for (text, expect) in [
+            ("", vec![]),
+            ("plain $5 }", vec![Plain("plain $5 }")]),
+            ("${a}", vec![Variable("a")]),
+            ("x${a-1}${_b}.exr", vec![Plain("x"), Variable("a-1"), Variable("_b"), Plain(".exr")]),
+            ("$${a}", vec![Plain("${"), Plain("a}")]),
+            ("$$${a}", vec![Plain("$"), Plain("${"), Plain("a}")]),
+            ("$${${a}", vec![Plain("${"), Variable("a")]),
+        ] {
+            assert_eq!(pieces(text).unwrap(), expect, "{text}");
+        }
+        for text in ["${", "${a", "${}", "${a b}", "${1}", "x ${a.b}"] {
+            assert!(pieces(text).is_err(), "{text}");
+        }
+    }
+}
