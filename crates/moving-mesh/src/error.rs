@@ -47,6 +47,16 @@ pub enum MeshError {
         /// What there is.
         known: String,
     },
+    /// The file has no such camera.
+    #[error("{}: no camera{asked}; it has {known}", path.display())]
+    NoCamera {
+        /// The file.
+        path: PathBuf,
+        /// What was asked for.
+        asked: String,
+        /// What there is.
+        known: String,
+    },
     /// The file needs OpenUSD's own package, which is not there or did not do it.
     #[error("{}: USD composition and skinning are evaluated by usd-core: {source}", path.display())]
     UsdCore {
@@ -86,6 +96,10 @@ pub(crate) enum Fault {
         asked: String,
         known: String,
     },
+    NoCamera {
+        asked: String,
+        known: String,
+    },
     UsdCore(UsdCoreError),
     /// In another file, whose name it has.
     Told(Box<MeshError>),
@@ -113,6 +127,7 @@ impl Fault {
             Fault::Told(error) => *error,
             Fault::UsdCore(source) => MeshError::UsdCore { path, source },
             Fault::NoAnimation { asked, known } => MeshError::NoAnimation { path, asked, known },
+            Fault::NoCamera { asked, known } => MeshError::NoCamera { path, asked, known },
         }
     }
 }

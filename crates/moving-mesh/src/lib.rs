@@ -1,4 +1,4 @@
-//! Triangle meshes that move, for grooms to grow on and to shade: OBJ, glTF and USD.
+//! Triangle meshes that move, for grooms to grow on and to shade: OBJ, glTF and USD; and the cameras of such files.
 //!
 //! ```no_run
 //! use moving_mesh::{MeshOptions, MovingMesh};
@@ -16,9 +16,11 @@
 //! | USD | samples of points, normals and transforms; UsdSkel, blend shapes and composition through usd-core |
 //!
 //! Which triangles there are never changes: a frame that is another mesh is an error that names it. Positions are
-//! `f64`. Knows no hair and no light.
+//! `f64`. [`CameraFile`] reads a camera of a glTF or USD file, with its lens and its way. Knows no hair and no
+//! light.
 
 mod budget;
+mod camera_file;
 mod choice;
 mod error;
 mod gltf_file;
@@ -36,6 +38,7 @@ mod texture;
 mod triangle_mesh;
 mod usd_file;
 
+pub use camera_file::{CameraChoice, CameraFile, CameraOptions, CameraPose};
 pub use error::MeshError;
 pub use moving_mesh::MovingMesh;
 pub use options::{Animation, AnimationChoice, MeshOptions, RestPose};

@@ -1,5 +1,6 @@
 //! glTF 2.0, its bytes checked by `gltf-bytes`.
 
+mod cameras;
 mod curve;
 mod frame_rate;
 mod materials;
@@ -19,6 +20,7 @@ use crate::error::Fault;
 use crate::loaded::{Loaded, Motion, Source};
 use crate::shape::Shape;
 use crate::{Animation, MeshOptions};
+pub(crate) use cameras::{GltfCamera, read_camera};
 use curve::Curve;
 use materials::Materials;
 use nodes::Nodes;

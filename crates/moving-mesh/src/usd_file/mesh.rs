@@ -158,7 +158,11 @@ impl Mesh {
 }
 
 /// From the space of the last prim of a chain to the stage's.
-fn world<B: AsRef<[u8]>>(layer: &Layer<B>, chain: &[&Prim], time: Option<f64>) -> Result<DMat4, Fault> {
+pub(super) fn world<B: AsRef<[u8]>>(
+    layer: &Layer<B>,
+    chain: &[&Prim],
+    time: Option<f64>,
+) -> Result<DMat4, Fault> {
     let mut world = DMat4::IDENTITY;
     for prim in chain {
         let local = xform::parent_from_prim(layer, prim, time);

@@ -21,6 +21,7 @@
 //! usd-core into a plain layer with the samples that the options ask for, which is then read as any other.
 
 mod between;
+mod cameras;
 mod looks;
 mod mesh;
 mod polygons;
@@ -40,6 +41,7 @@ use crate::error::Fault;
 use crate::loaded::{Loaded, Motion, Source};
 use crate::shape::{Look, Shape};
 use crate::{Animation, AnimationChoice, MeshOptions, Pose};
+pub(crate) use cameras::{UsdCamera, read_camera};
 use mesh::Mesh;
 use stage::{Found, Place};
 

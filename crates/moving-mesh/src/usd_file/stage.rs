@@ -1,4 +1,4 @@
-//! The meshes of a layer, and what in it is not read here.
+//! The meshes and cameras of a layer, and what in it is not read here.
 
 use usd_layer::{Layer, Prim, ReadError, Specifier, Value};
 
@@ -11,8 +11,11 @@ const ARCS: [&str; 5] = ["references", "payload", "inherits", "specializes", "cl
 #[derive(Debug, Default)]
 pub(super) struct Found {
     pub(super) meshes: Vec<Place>,
+    pub(super) cameras: Vec<Place>,
     /// Whether there is composition, which is not followed here.
     pub(super) composed: bool,
+    /// Whether it is of the layer as a whole: sublayers.
+    pub(super) layered: bool,
     /// Whether a skeleton moves a mesh.
     pub(super) skinned: bool,
 }
@@ -44,7 +47,8 @@ impl Found {
     pub(super) fn search<B>(layer: &Layer<B>) -> Self {
         let mut found = Found::default();
         if let Some(Value::List(layers)) = layer.metadata("subLayers") {
-            found.composed = layers.items().next().is_some();
+            found.layered = layers.items().next().is_some();
+            found.composed = found.layered;
         }
         found.prims(&layer.prims, &Place::default(), None);
         found
@@ -57,7 +61,7 @@ impl Found {
             if prim.specifier != Specifier::Def || !prim.is_active() {
                 continue;
             }
-            self.composed |= ARCS.iter().any(|arc| prim.metadata(arc).is_some());
+            self.composed |= pulls_in(prim);
             let purpose = prim.attribute("purpose").and_then(|purpose| purpose.held(None)?.text());
             if matches!(purpose, Some("guide" | "proxy")) {
                 continue;
@@ -66,13 +70,22 @@ impl Found {
             let bound = bound.map(|bound| bound || binds(prim));
             let indices = parent.indices.iter().copied().chain([index]).collect();
             let place = Place { path: format!("{}/{}", parent.path, prim.name), indices };
-            if &*prim.type_name == "Mesh" {
-                self.skinned |= bound == Some(true);
-                self.meshes.push(place.clone());
+            match &*prim.type_name {
+                "Mesh" => {
+                    self.skinned |= bound == Some(true);
+                    self.meshes.push(place.clone());
+                }
+                "Camera" => self.cameras.push(place.clone()),
+                _ => {}
             }
             self.prims(&prim.children, &place, bound);
         }
     }
+}
+
+/// Whether a prim pulls in other layers or prims, or times.
+pub(super) fn pulls_in(prim: &Prim) -> bool {
+    ARCS.iter().any(|arc| prim.metadata(arc).is_some())
 }
 
 /// Whether a prim binds what is in it to a skeleton (UsdSkelBindingAPI).

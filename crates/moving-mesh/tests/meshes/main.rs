@@ -3,6 +3,7 @@
 #![allow(clippy::unwrap_used, clippy::print_stdout)] // helpers of tests
 
 mod broken_files;
+mod cameras;
 mod gltf_files;
 mod gltf_motion;
 mod obj;
