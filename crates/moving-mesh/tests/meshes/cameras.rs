@@ -326,7 +326,8 @@ fn usd_cameras_are_where_gf_camera_has_them() {
                 }
             };
             let place = turned(1) * 0.01;
-            assert!((pose.position() - place).length() <= 1e-9 * place.length().max(1.0), "{line} {pose:?}");
+            // usd-core blends turns in single precision.
+            assert!((pose.position() - place).length() <= 1e-6 + 1e-12 * place.length(), "{line} {pose:?}");
             assert!((pose.forward() - turned(4)).length() < 1e-6, "{line} {pose:?}");
             assert!((pose.up() - turned(7)).length() < 1e-6, "{line} {pose:?}");
             assert!((pose.vertical_fov.to_degrees() - n[10]).abs() < 1e-4, "{line} {pose:?}");
