@@ -1,6 +1,6 @@
 //! Where the picture is taken from.
 
-use glam::{DMat3, DMat4, DVec3, Vec3};
+use glam::{DMat3, DMat4, DVec3, DVec4, Vec3};
 
 use crate::{Bounds, RenderError};
 
@@ -167,6 +167,21 @@ impl Camera {
         DMat4::from_mat3(rotation) * DMat4::from_translation(-self.position)
     }
 
+    /// The matrix from world space to EXR's `worldToNDC`: (0, 0) in the upper left and (1, 1) in the lower right
+    /// corner of a picture that is `aspect` times as wide as high, after the division by w; z, which readers
+    /// drop, is 1 - 1 m / distance. Columns of a matrix that multiplies column vectors.
+    #[must_use]
+    pub fn ndc_from_world(&self, aspect: f64) -> DMat4 {
+        let half_height = (0.5 * self.vertical_fov).tan();
+        let projection = DMat4::from_cols(
+            DVec4::new(0.5 / (half_height * aspect), 0.0, 0.0, 0.0),
+            DVec4::new(0.0, -0.5 / half_height, 0.0, 0.0),
+            DVec4::new(0.5, 0.5, 1.0, 1.0),
+            DVec4::new(0.0, 0.0, -1.0, 0.0),
+        );
+        projection * self.camera_from_world()
+    }
+
     fn axes(&self) -> Axes {
         // `look_at` made sure that none of these is zero.
         let forward = (self.target - self.position).normalize_or_zero();
@@ -232,6 +247,24 @@ mod tests {
         assert!((camera.position() - DVec3::X * 2.0).length() < 1e-12);
         let above = Camera::orbit(DVec3::ZERO, 2.0, 0.0, 90f64.to_radians(), 0.5).unwrap();
         assert!(above.lens(DVec3::ZERO, 2, 2).direction(1.0, 0.0).z < 0.0);
+    }
+
+    /// Where the matrix puts a point is where the ray through that place of the picture meets it.
+    #[test]
+    fn the_ndc_matrix_agrees_with_the_rays() {
+        let place = DVec3::new(30.0, -2.0, 5.0);
+        let camera = Camera::orbit(place, 4.0, 0.7, 0.4, 0.6).unwrap();
+        let (width, height) = (320u32, 180u32);
+        let (lens, matrix) =
+            (camera.lens(camera.position(), width, height), camera.ndc_from_world(320.0 / 180.0));
+        for (x, y, distance) in [(0.0, 0.0, 1.0), (320.0, 180.0, 3.0), (40.0, 160.0, 9.0), (160.0, 90.0, 4.0)]
+        {
+            let point = camera.position() + lens.direction(x, y).as_dvec3() * distance;
+            let found = matrix.project_point3(point);
+            let expected = (f64::from(x) / 320.0, f64::from(y) / 180.0);
+            assert!((found.x - expected.0).abs() < 1e-6 && (found.y - expected.1).abs() < 1e-6, "{found}");
+        }
+        assert!(matrix.determinant().abs() > 1e-9, "it can be turned round");
     }
 
     #[test]

@@ -91,6 +91,16 @@ pub enum RenderError {
         /// What the operating system said.
         reason: String,
     },
+    /// A checkpoint is of another picture than the one asked for.
+    #[error("the checkpoint's {what} is {found}, expected {expected}")]
+    OtherCheckpoint {
+        /// What differs.
+        what: &'static str,
+        /// What the checkpoint has.
+        found: String,
+        /// What is asked for.
+        expected: String,
+    },
     /// The caller asked to stop; nothing was kept.
     #[error("rendering was cancelled")]
     Cancelled,

@@ -1,16 +1,17 @@
-//! A frame as one OpenEXR file with a layer for every pass.
+//! A frame as one OpenEXR file with a layer for every pass; reading it is in `frame_header.rs`.
 
 use std::collections::BTreeMap;
 use std::io::BufWriter;
 use std::path::Path;
 
+use exr::image::write::samples::WritableSamples;
 use exr::prelude as openexr;
 use glam::Vec3;
 use half::f16;
 use openexr::{AnyChannel, AnyChannels, AttributeValue, FlatSamples, WritableImage};
 use whole_file::WholeFile;
 
-use crate::{Camera, Frame, RenderError};
+use crate::{Camera, Cutout, Frame, FrameReport, MotionReport, RenderError};
 
 /// How the colours are stored.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -46,10 +47,11 @@ impl Frame {
     ///
     /// One part, ZIP compressed. Beauty and alpha are the channels `R`, `G`, `B`, `A`; a pass `TT` is
     /// `TT.R`, `TT.G`, `TT.B`. Attributes: `software`, `command`, `digest`, `seed`, `spp`, `seconds`,
-    /// `threads`, `relMSE`, `relativeError` (left out when not known), `colorInteropID` =
-    /// `lin_rec709_scene`, `chromaticities`, `worldToCamera` and the extra ones. A picture with blur also has
-    /// `shutter` (opening:closing in frames, shape) and, where they move, `motionKeys` and `cameraKeys`;
-    /// `expTime` and `framesPerSecond` where the metadata know them.
+    /// `threads`, `relMSE`, `relativeError` (left out when not known), `closestRays`, `shadowRays`,
+    /// `rejectedSamples`, `colorInteropID` = `lin_rec709_scene`, `chromaticities`, `worldToCamera`, `worldToNDC`
+    /// and the extra ones. A picture with blur also has `shutter` (opening:closing in frames, shape) and, where
+    /// they move, `motionKeys` and `cameraKeys`; `expTime` and `framesPerSecond` where the metadata know them. Of
+    /// a crop the data window is the crop, the display window the whole picture.
     ///
     /// # Errors
     /// [`RenderError::Io`] or [`RenderError::Encode`]; the old file, if any, is then untouched.
@@ -60,56 +62,68 @@ impl Frame {
         for (aov, pixels) in &self.passes {
             push_color(&mut channels, &format!("{}.", aov.name()), pixels, metadata.precision);
         }
-        let size = (self.width as usize, self.height as usize);
-        let layer =
-            openexr::Layer::new(size, self.attributes(metadata), encoding(), AnyChannels::sort(channels));
-        let mut image = openexr::Image::from_layer(layer);
-        image.attributes.chromaticities = Some(rec709());
-        write_image(path, &image)
+        write_layer(path, self.attributes(metadata), channels, [self.width, self.height], self.cutout)
     }
 
     fn attributes(&self, metadata: &Metadata) -> openexr::LayerAttributes {
         let report = &self.report;
+        let aspect = match &self.cutout {
+            Some(cutout) => f64::from(cutout.full_width) / f64::from(cutout.full_height.max(1)),
+            None => f64::from(self.width) / f64::from(self.height.max(1)),
+        };
+        // OpenEXR multiplies row vectors: its rows are our columns.
+        let rows = |matrix: glam::DMat4| matrix.as_mat4().to_cols_array();
         let mut attributes = openexr::LayerAttributes {
-            software_name: Some(text(concat!("groomkit hair-render ", env!("CARGO_PKG_VERSION")))),
-            // OpenEXR multiplies row vectors: its rows are our columns.
-            world_to_camera: metadata.camera.map(|c| c.camera_from_world().as_mat4().to_cols_array()),
+            world_to_camera: metadata.camera.map(|c| rows(c.camera_from_world())),
+            world_to_normalized_device: metadata.camera.map(|c| rows(c.ndc_from_world(aspect))),
             exposure: metadata.exposure_seconds.map(|seconds| seconds as f32),
             frames_per_second: metadata.frame_rate.and_then(rational),
             ..openexr::LayerAttributes::default()
         };
-        let mut put = |key: &str, value: AttributeValue| {
-            attributes.other.insert(text(key), value);
-        };
-        let strings = [
-            ("command", metadata.command.clone()),
-            ("digest", metadata.digest.clone()),
-            ("seed", report.seed.to_string()),
-            ("colorInteropID", "lin_rec709_scene".to_owned()),
-        ];
-        let extra = metadata.extra.iter().map(|(key, value)| (key.as_str(), value.clone()));
-        for (key, value) in strings.into_iter().chain(extra).filter(|(key, _)| !key.is_empty()) {
-            put(key, AttributeValue::Text(text(&value)));
-        }
-        put("spp", AttributeValue::I32(i32::try_from(report.spp).unwrap_or(i32::MAX)));
-        put("threads", AttributeValue::I32(i32::try_from(report.threads).unwrap_or(i32::MAX)));
-        put("seconds", AttributeValue::F64(report.seconds));
-        if let Some(motion) = &report.motion {
-            let shutter =
-                format!("{}:{} {}", motion.shutter_open, motion.shutter_close, motion.shutter_shape);
-            put("shutter", AttributeValue::Text(text(&shutter)));
-            for (key, value) in [("motionKeys", motion.keys), ("cameraKeys", motion.camera_keys)] {
-                if let Some(value) = value {
-                    put(key, AttributeValue::I32(i32::try_from(value).unwrap_or(i32::MAX)));
-                }
-            }
+        let strings = [("command", &metadata.command), ("digest", &metadata.digest)];
+        let strings = strings.map(|(key, value)| (key.to_owned(), value.clone()));
+        for (key, value) in
+            strings.into_iter().chain(metadata.extra.clone()).filter(|(key, _)| !key.is_empty())
+        {
+            attributes.other.insert(text(&key), AttributeValue::Text(text(&value)));
         }
         for (key, value) in [("relMSE", report.rel_mse), ("relativeError", report.relative_error)] {
             if let Some(value) = value {
-                put(key, AttributeValue::F64(value));
+                attributes.other.insert(text(key), AttributeValue::F64(value));
             }
         }
+        put_figures(&mut attributes, report);
         attributes
+    }
+}
+
+/// What frames and checkpoints both tell.
+pub(crate) fn put_figures(attributes: &mut openexr::LayerAttributes, report: &FrameReport) {
+    attributes.software_name = Some(text(concat!("groomkit hair-render ", env!("CARGO_PKG_VERSION"))));
+    let whole = |value: u64| AttributeValue::I32(i32::try_from(value).unwrap_or(i32::MAX));
+    // Exact up to 2^53, which rays do not reach.
+    let count = |value: u64| AttributeValue::F64(value as f64);
+    let mut put = |key: &str, value: AttributeValue| {
+        attributes.other.insert(text(key), value);
+    };
+    put("colorInteropID", AttributeValue::Text(text("lin_rec709_scene")));
+    put("seed", AttributeValue::Text(text(&report.seed.to_string())));
+    put("spp", whole(report.spp.into()));
+    put("threads", whole(report.threads as u64));
+    put("seconds", AttributeValue::F64(report.seconds));
+    put("closestRays", count(report.closest_rays));
+    put("shadowRays", count(report.shadow_rays));
+    put("rejectedSamples", count(report.rejected_samples));
+    let Some(MotionReport { shutter_open, shutter_close, shutter_shape, keys, camera_keys }) = &report.motion
+    else {
+        return;
+    };
+    let shutter = format!("{shutter_open}:{shutter_close} {shutter_shape}");
+    put("shutter", AttributeValue::Text(text(&shutter)));
+    for (key, value) in [("motionKeys", keys), ("cameraKeys", camera_keys)] {
+        if let Some(value) = value {
+            put(key, whole(*value as u64));
+        }
     }
 }
 
@@ -143,7 +157,7 @@ fn encoding() -> openexr::Encoding {
 
 /// Text in UTF-8, as OpenEXR and its Python module read it; the `exr` crate's own way is Latin-1, which
 /// has no words for most of the world's file names.
-fn text(words: &str) -> openexr::Text {
+pub(crate) fn text(words: &str) -> openexr::Text {
     openexr::Text::from_slice_unchecked(words.as_bytes())
 }
 
@@ -189,10 +203,39 @@ pub(crate) fn write_rgb(
     write_image(path, &image)
 }
 
-fn write_image(
+/// Writes channels as the one layer of a file, at its place in the whole picture.
+pub(crate) fn write_layer<S>(
     path: &Path,
-    image: &openexr::Image<openexr::Layer<AnyChannels<FlatSamples>>>,
-) -> Result<(), RenderError> {
+    mut attributes: openexr::LayerAttributes,
+    channels: openexr::SmallVec<[AnyChannel<S>; 4]>,
+    [width, height]: [u32; 2],
+    cutout: Option<Cutout>,
+) -> Result<(), RenderError>
+where
+    for<'s> S: WritableSamples<'s>,
+{
+    // At most 65536, as the settings are checked for.
+    let place = |x: u32| i32::try_from(x).unwrap_or(i32::MAX);
+    let mut display = openexr::Vec2(width as usize, height as usize);
+    if let Some(cutout) = cutout {
+        attributes.layer_position = openexr::Vec2(place(cutout.x), place(cutout.y));
+        display = openexr::Vec2(cutout.full_width as usize, cutout.full_height as usize);
+    }
+    let size = (width as usize, height as usize);
+    let layer = openexr::Layer::new(size, attributes, encoding(), AnyChannels::sort(channels));
+    let mut image = openexr::Image::from_layer(layer);
+    image.attributes.display_window = openexr::IntegerBounds::new(openexr::Vec2(0, 0), display);
+    image.attributes.chromaticities = Some(rec709());
+    write_image(path, &image)
+}
+
+fn write_image<S>(
+    path: &Path,
+    image: &openexr::Image<openexr::Layer<AnyChannels<S>>>,
+) -> Result<(), RenderError>
+where
+    for<'s> S: WritableSamples<'s>,
+{
     let io = |source| RenderError::Io { path: path.to_owned(), source };
     let mut file = BufWriter::new(WholeFile::create(path)?);
     image.write().to_buffered(&mut file).map_err(|fault| match fault {

@@ -3,7 +3,7 @@
 use glam::Vec3;
 use serde::Serialize;
 
-use crate::{Aov, MotionReport};
+use crate::{Aov, Cutout, MotionReport};
 
 /// A finished picture: linear Rec. 709 radiance, row by row from the upper left.
 #[derive(Clone, Debug, PartialEq)]
@@ -12,6 +12,8 @@ pub struct Frame {
     pub width: u32,
     /// Pixels down.
     pub height: u32,
+    /// Where it lies in the whole picture, if it is but a part of it.
+    pub cutout: Option<Cutout>,
     /// Everything the camera sees, premultiplied by `alpha`; width x height values.
     pub beauty: Vec<Vec3>,
     /// How much of each pixel is covered, 0..1 (1 everywhere when the background is visible).
@@ -33,7 +35,7 @@ impl Frame {
 /// What a picture cost and how exact it is.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct FrameReport {
-    /// Wall-clock seconds spent rendering (not building the scene).
+    /// Wall-clock seconds spent rendering (not building the scene), in all runs together.
     pub seconds: f64,
     /// Samples a pixel.
     pub spp: u32,
@@ -41,7 +43,7 @@ pub struct FrameReport {
     pub seed: u64,
     /// Threads that worked on it.
     pub threads: usize,
-    /// Camera paths traced: width x height x spp.
+    /// Camera paths traced: width x height x spp (more where a pass was broken off).
     pub samples: u64,
     /// Rays that looked for the closest hit.
     pub closest_rays: u64,

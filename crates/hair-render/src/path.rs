@@ -24,7 +24,7 @@ pub(crate) struct PathLight {
 }
 
 /// Rays traced, by kind.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct RayCounts {
     pub closest: u64,
     pub shadow: u64,

@@ -1,6 +1,7 @@
 //! How a picture is made from a scene.
 
-use crate::{Aov, AovSet, RenderError};
+use crate::crop::Window;
+use crate::{Aov, AovSet, Crop, RenderError};
 
 /// Which ways of finding light are used. Anything but [`LightSampling::Both`] is for verification:
 /// all three agree in the mean and differ in noise.
@@ -51,6 +52,8 @@ pub struct RenderSettings {
     pub background: Background,
     /// Which ways of finding light are used.
     pub light_sampling: LightSampling,
+    /// The part of the picture to render; all of it when `None`.
+    pub crop: Option<Crop>,
 }
 
 impl Default for RenderSettings {
@@ -67,6 +70,7 @@ impl Default for RenderSettings {
             aovs: AovSet::none(),
             background: Background::Transparent,
             light_sampling: LightSampling::Both,
+            crop: None,
         }
     }
 }
@@ -95,7 +99,15 @@ impl RenderSettings {
         if self.threads == Some(0) {
             return Err(RenderError::argument("threads", 0, "at least 1"));
         }
-        Ok(())
+        self.window().map(drop)
+    }
+
+    /// The pixels to render.
+    pub(crate) fn window(&self) -> Result<Window, RenderError> {
+        match &self.crop {
+            Some(crop) => crop.window(self.width, self.height),
+            None => Ok(Window { x: 0, y: 0, width: self.width, height: self.height }),
+        }
     }
 
     /// The threads that work.

@@ -142,7 +142,15 @@ mod tests {
             relative_error: None,
             motion: None,
         };
-        Frame { width: 1, height: 1, beauty: vec![beauty], alpha: vec![alpha], passes: vec![], report }
+        Frame {
+            width: 1,
+            height: 1,
+            cutout: None,
+            beauty: vec![beauty],
+            alpha: vec![alpha],
+            passes: vec![],
+            report,
+        }
     }
 
     fn shown(beauty: Vec3, alpha: f32, mapping: ToneMapping) -> [u8; 4] {

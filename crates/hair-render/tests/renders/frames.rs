@@ -132,7 +132,7 @@ fn pure_noise_comes_back_to_the_bit() {
         let (beauty, passes) = (colors(), vec![(Aov::Tt, colors()), (Aov::Residual, colors())]);
         let alpha = (0..count).map(|_| bits()).collect();
         let report = shoot(&scene(vec![], None, vec![]), &front(&colourful()), &settings(1, 2)).report;
-        let frame = Frame { width, height, beauty, alpha, passes, report };
+        let frame = Frame { width, height, cutout: None, beauty, alpha, passes, report };
         let path = folder.path().join("noise.exr");
         frame.write_exr(&path, &Metadata::default()).unwrap();
         let image = read_first_flat_layer_from_file(&path).unwrap();

@@ -4,6 +4,7 @@
 
 mod blur;
 mod blur_energy;
+mod checkpoints;
 mod color;
 mod common;
 mod energy;
