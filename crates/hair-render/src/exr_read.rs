@@ -190,7 +190,7 @@ pub(crate) fn wholes(bytes: &[u8]) -> impl Iterator<Item = u32> {
 }
 
 fn words(text: &Text) -> String {
-    String::from_utf8_lossy(&text.bytes().iter().copied().collect::<Vec<u8>>()).into_owned()
+    String::from_utf8_lossy(text.bytes()).into_owned()
 }
 
 /// The attributes of a header, by name.

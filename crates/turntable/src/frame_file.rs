@@ -104,7 +104,7 @@ pub(crate) fn unmeasured((width, height): (u32, u32), beauty: Vec<Vec3>, alpha: 
         relative_error: None,
         motion: None,
     };
-    Frame { width, height, beauty, alpha, passes: Vec::new(), report }
+    Frame { width, height, cutout: None, beauty, alpha, passes: Vec::new(), report }
 }
 
 #[cfg(test)]
@@ -135,7 +135,8 @@ mod tests {
             relative_error: Some(0.05),
             motion: None,
         };
-        let frame = Frame { width: 40, height: 30, beauty: pixels, alpha, passes: vec![], report };
+        let frame =
+            Frame { width: 40, height: 30, cutout: None, beauty: pixels, alpha, passes: vec![], report };
         let metadata = Metadata { digest: "abc".into(), ..Metadata::default() };
         frame.write_exr(&path, &metadata).unwrap();
         let expect = FrameHeader {

@@ -64,14 +64,14 @@ fn begin(
 fn stopped(scene: &Scene, settings: &RenderSettings, start: Option<Checkpoint>, stop: &Stop) -> Checkpoint {
     match begin(scene, settings, start, stop).unwrap() {
         Rendered::Stopped(checkpoint) => checkpoint,
-        Rendered::Done(_) => panic!("it was not stopped"),
+        Rendered::Done(_) => unreachable!("it was not stopped"),
     }
 }
 
 fn done(scene: &Scene, settings: &RenderSettings, start: Option<Checkpoint>) -> Frame {
     match begin(scene, settings, start, &Silent).unwrap() {
         Rendered::Done(frame) => frame,
-        Rendered::Stopped(_) => panic!("nobody stopped it"),
+        Rendered::Stopped(_) => unreachable!("nobody stopped it"),
     }
 }
 
