@@ -119,7 +119,8 @@ pub(crate) fn split(sum: f64) -> [f32; 2] {
 
 /// The sum that two `f32` stand for.
 pub(crate) fn join([high, low]: [f32; 2]) -> f64 {
-    f64::from(high) + f64::from(low)
+    // Plus nothing: a zero has no sign, as when it is read.
+    f64::from(high) + f64::from(low) + 0.0
 }
 
 // A pass is found by its place in `PathLight::parts`.
