@@ -61,7 +61,8 @@ pub struct AfterStep {
 pub enum When {
     /// When every frame is there.
     AllDone,
-    /// When no frame is being rendered any more, done or failed.
+    /// When the frames and the steps before it have ended, well or not. Open Job Description has no such
+    /// dependency and is not told of these.
     Ended,
 }
 

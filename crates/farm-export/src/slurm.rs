@@ -112,14 +112,18 @@ fn submission(job: &FarmJob, common: &[String]) -> Result<String, FarmError> {
     lines.push("    frames=$(sbatch --parsable $after \"$@\" \"$0\")".to_owned());
     lines.push("    frames=$(id \"$frames\")".to_owned());
     lines.push("    echo \"Frames: job $frames\"".to_owned());
+    lines.push("    ended=$frames".to_owned());
     for after in &job.after {
+        // What is to run in any case comes last, or two would do the same work side by side.
         let dependency = match after.when {
             When::AllDone => "--dependency=\"afterok:$frames\" --kill-on-invalid-dep=yes",
-            When::Ended => "--dependency=\"afterany:$frames\"",
+            When::Ended => "--dependency=\"afterany:$ended\"",
         };
         let words = after_words(job, &after.words);
         lines.push(format!("    step=$(sbatch --parsable {dependency} {})", step(&after.name, &words)));
-        lines.push(format!("    echo {}\": job $(id \"$step\")\"", sh_quoted(&after.name)));
+        lines.push("    step=$(id \"$step\")".to_owned());
+        lines.push("    ended=$ended:$step".to_owned());
+        lines.push(format!("    echo {}\": job $step\"", sh_quoted(&after.name)));
     }
     lines.extend(["    exit".to_owned(), "fi\n".to_owned()]);
     Ok(lines.join("\n"))

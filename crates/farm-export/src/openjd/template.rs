@@ -87,13 +87,9 @@ pub(super) fn template(job: &FarmJob) -> Result<String, FarmError> {
     let space = Space::of(job, &mut literals)?;
     let frame = ["--progress", "openjd", "--frames", "{{Task.Param.Frame}}"].map(str::to_owned);
     steps += &step("Frames", below, &space.text, words.iter().chain(&space.words).chain(&frame));
-    for after in &job.after {
+    for after in job.after.iter().filter(|after| after.when == When::AllDone) {
         let mut rest = literals.say_all(&after.words)?;
         rest.extend(["--frames".to_owned(), "{{Param.Frames}}".to_owned()]);
-        if after.when == When::Ended {
-            steps += "# A report on what is there, whatever became of the frames; but Open Job Description has no \
-                      such dependency,\n# and this step waits for all of them. Run it by itself where some fail.\n";
-        }
         steps += &step(&after.name, Some("Frames"), "", words.iter().chain(&rest));
     }
     let known = parameters(job);
@@ -122,7 +118,8 @@ fn check(job: &FarmJob) -> Result<(), FarmError> {
 
 /// What the reader of the file should know.
 fn head(job: &FarmJob) -> String {
-    format!(
+    let last = job.after.iter().rev().find(|step| step.when == When::AllDone);
+    let mut text = format!(
         "# {}: check with `openjd check template.yaml`, run here with\n\
          #     openjd run template.yaml --step {} --run-dependencies -p Frames={}\n\
          # or hand the folder to a farm that takes job bundles.\n\
@@ -133,9 +130,16 @@ fn head(job: &FarmJob) -> String {
          # - the farm tries tasks again that fail: exit code 75 asks for it, 2 says that it would be in vain;\n\
          # - a task has its machine to itself (the renderer takes all cores that it may use).\n",
         job.name,
-        job.after.first().map_or("Frames".to_owned(), |step| crate::sh_quoted(&step.name)),
+        last.map_or("Frames".to_owned(), |step| crate::sh_quoted(&step.name)),
         frames(job),
-    )
+    );
+    for step in job.after.iter().filter(|step| step.when == When::Ended) {
+        text += &format!(
+            "# `{}` is no step here: a step waits until those before it are done well, and it is for those that are not.\n",
+            step.name
+        );
+    }
+    text
 }
 
 fn definition(parameter: &Parameter) -> String {

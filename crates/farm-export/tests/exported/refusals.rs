@@ -39,9 +39,11 @@ fn what_is_missing_or_contradicts_itself_is_refused_everywhere() {
     all_refuse(&of(|job| job.after[1].name = "ContactSheet".into()), "taken");
 }
 
+type Place = fn(&mut FarmJob, String);
+
 #[test]
 fn control_characters_are_refused_wherever_they_stand() {
-    let places: [(&str, fn(&mut FarmJob, String)); 7] = [
+    let places: [(&str, Place); 7] = [
         ("the job's name", |job, text| job.name = text),
         ("the word", |job, text| job.command.push(text)),
         ("the word", |job, text| job.settings.push(text)),
