@@ -44,7 +44,7 @@ pub fn command_list(job: &FarmJob) -> Result<String, FarmError> {
     }
     for task in tasks {
         let mut words = common.clone();
-        words.extend(only_words(task.variant));
+        words.extend(job.render.iter().cloned().chain(only_words(task.variant)));
         words.extend(["--frames".to_owned(), range_text(task.frames)]);
         lines.push(sh_line(&words));
     }

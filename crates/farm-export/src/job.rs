@@ -28,6 +28,8 @@ pub struct FarmJob {
     pub input_folders: Vec<PathBuf>,
     /// Words of the step that runs once before all frames, if there is one.
     pub prepare: Option<Vec<String>>,
+    /// Words of every task of frames.
+    pub render: Vec<String>,
     /// What runs when the frames are there, each once.
     pub after: Vec<AfterStep>,
     /// Frames a task. A task loads the groom and builds its trees once; [`frames_a_task`] picks one.
@@ -107,6 +109,7 @@ impl FarmJob {
             inputs: Vec::new(),
             input_folders: Vec::new(),
             prepare: None,
+            render: Vec::new(),
             after: Vec::new(),
             chunk: frames_a_task(None),
             seconds_a_frame: None,
@@ -233,7 +236,7 @@ impl FarmJob {
     /// Every text of the job with what it is; paths are Unicode by now.
     fn texts(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let words = self.command.iter().chain(&self.settings).chain(self.prepare.iter().flatten());
-        let words = words.chain(self.after.iter().flat_map(|step| &step.words));
+        let words = words.chain(&self.render).chain(self.after.iter().flat_map(|step| &step.words));
         let names = self.after.iter().map(|step| ("the step", step.name.as_str()));
         let axes = self.variants.iter().flat_map(|v| &v.axes);
         [("the job's name", self.name.as_str())]

@@ -10,7 +10,7 @@
 //! task may be run again, run twice at once, or be killed, and nothing is lost or done twice. That is the renderer's
 //! part; here is only text. Nothing is read, written or started.
 //!
-//! The words a task is made of are `COMMAND.. PIPELINE --out OUTPUT SETTINGS.. --only AXIS=NAME.. --frames RANGE`,
+//! The words a task is made of are `COMMAND.. PIPELINE --out OUTPUT SETTINGS.. RENDER.. --only AXIS=NAME.. --frames RANGE`,
 //! with `--threads` where the farm says how many it lent, and `--progress openjd` where it listens. Names may hold
 //! spaces, quotes, `$` and `{{`; what a format cannot say is refused with its name.
 //!

@@ -1,7 +1,10 @@
 //! An Open Job Description bundle: template, parameter values, files that go along.
 //!
+//! The template holds no path: the specification's own reader refuses defaults outside the template's folder. They
+//! are values, once as Deadline Cloud reads them and once as `openjd-cli` does.
+//!
 //! Specification: <https://github.com/OpenJobDescription/openjd-specifications/wiki>, 2023-09, with the extension
-//! `TASK_CHUNKING` (RFC 0001). The two files beside the template are those of AWS Deadline Cloud's job bundles.
+//! `TASK_CHUNKING` (RFC 0001). `asset_references.yaml` and `parameter_values.yaml` are those of AWS Deadline Cloud's job bundles.
 
 mod literals;
 mod template;
@@ -12,7 +15,8 @@ use crate::{FarmError, FarmJob, range_text};
 pub(crate) const FORMAT: &str = "an OpenJD template";
 
 /// The files of a bundle, the one that makes it a bundle last.
-pub const BUNDLE_FILES: [&str; 3] = ["asset_references.yaml", "parameter_values.yaml", "template.yaml"];
+pub const BUNDLE_FILES: [&str; 4] =
+    ["asset_references.yaml", "parameter_values.yaml", "values.yaml", "template.yaml"];
 
 /// The most characters of a parameter's value.
 const MOST_VALUE: usize = 1024;
@@ -22,11 +26,16 @@ const MOST_VALUE: usize = 1024;
 ///
 /// # Errors
 /// [`FarmError`] when the job is incomplete or holds what the specification does not allow.
-pub fn openjd(job: &FarmJob) -> Result<[(&'static str, String); 3], FarmError> {
+pub fn openjd(job: &FarmJob) -> Result<[(&'static str, String); 4], FarmError> {
     job.check(FORMAT)?;
     let template = template::template(job)?;
-    let [assets, values, name] = BUNDLE_FILES;
-    Ok([(assets, asset_references(job)), (values, parameter_values(job)), (name, template)])
+    let [assets, values, flat, name] = BUNDLE_FILES;
+    Ok([
+        (assets, asset_references(job)),
+        (values, parameter_values(job)),
+        (flat, flat_values(job)),
+        (name, template),
+    ])
 }
 
 /// What a farm that copies files has to bring to its machines, and to take back.
@@ -50,15 +59,25 @@ fn asset_references(job: &FarmJob) -> String {
     )
 }
 
-/// The values the job is exported with; they are the template's defaults as well.
+/// The values the job is exported with, as AWS Deadline Cloud reads them.
 fn parameter_values(job: &FarmJob) -> String {
-    let values = template::parameters(job)
-        .into_iter()
-        .map(|p| format!("- name: {}\n  value: {}\n", p.name, p.default));
+    let value = |p: template::Parameter| format!("- name: {}\n  value: {}\n", p.name, p.value);
     format!(
-        "# The values that {} was exported with; change them here or on the command line.\nparameterValues:\n{}",
+        "# The values that {} was exported with, for farms that take job bundles.\nparameterValues:\n{}",
         quoted(&job.name),
-        values.collect::<String>()
+        template::parameters(job).into_iter().map(value).collect::<String>()
+    )
+}
+
+/// Those the template has no defaults for, as `openjd run -p file://` reads them.
+fn flat_values(job: &FarmJob) -> String {
+    let value = |p: template::Parameter| format!("{}: {}\n", p.name, p.value);
+    let needed = template::parameters(job).into_iter().filter(|parameter| !parameter.has_default);
+    format!(
+        "# The paths that {} was exported with, for `openjd run template.yaml -p file://values.yaml`: a template may\n\
+         # name none outside its own folder.\n{}",
+        quoted(&job.name),
+        needed.map(value).collect::<String>()
     )
 }
 

@@ -45,7 +45,7 @@ pub fn slurm(job: &FarmJob) -> Result<String, FarmError> {
     script += "# In place of this shell, so that Slurm's signals reach the renderer.\n";
     script += &format!(
         "exec {} --threads \"${{SLURM_CPUS_ON_NODE:-1}}\" \"$@\" --frames \"$frames\"\n",
-        sh_line(&common)
+        sh_line(common.iter().chain(&job.render))
     );
     Ok(script)
 }

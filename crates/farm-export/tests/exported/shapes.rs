@@ -9,14 +9,14 @@ use serde_yaml::Value;
 use crate::full_job;
 
 fn template(job: &FarmJob) -> Value {
-    serde_yaml::from_str(&openjd(job).unwrap()[2].1).unwrap()
+    serde_yaml::from_str(&openjd(job).unwrap()[3].1).unwrap()
 }
 
 #[test]
-fn a_bundle_is_three_files_the_template_last() {
+fn a_bundle_ends_with_its_template() {
     let bundle = openjd(&full_job()).unwrap();
     assert_eq!(bundle.each_ref().map(|(name, _)| *name), BUNDLE_FILES);
-    assert_eq!(BUNDLE_FILES[2], "template.yaml");
+    assert_eq!(BUNDLE_FILES[3], "template.yaml");
     let assets: Value = serde_yaml::from_str(&bundle[0].1).unwrap();
     let assets = &assets["assetReferences"];
     assert_eq!(
@@ -26,11 +26,16 @@ fn a_bundle_is_three_files_the_template_last() {
     assert_eq!(assets["inputs"]["directories"][0], "/show/obj");
     assert_eq!(assets["outputs"]["directories"][0], "/show/out");
     let values: Value = serde_yaml::from_str(&bundle[1].1).unwrap();
+    let flat: Value = serde_yaml::from_str(&bundle[2].1).unwrap();
     let template = template(&full_job());
     let defined = template["parameterDefinitions"].as_sequence().unwrap();
     for value in values["parameterValues"].as_sequence().unwrap() {
         let definition = defined.iter().find(|d| d["name"] == value["name"]).unwrap();
-        assert_eq!(definition["default"], value["value"]);
+        let is_path = definition["type"] == "PATH";
+        assert_eq!(definition["default"].is_null(), is_path, "{definition:?}");
+        assert_eq!(definition["dataFlow"].is_null(), !is_path);
+        let given = if is_path { &flat[value["name"].as_str().unwrap()] } else { &definition["default"] };
+        assert_eq!(given, &value["value"]);
     }
 }
 

@@ -84,6 +84,7 @@ fn job() -> impl Strategy<Value = FarmJob> {
         FarmJob {
             command: vec!["printf".into(), "%s\\0".into()],
             settings,
+            render: vec!["--steps".into(), "fra mes".into()],
             variants,
             ..FarmJob::new(name_of(&name), format!("/in/{path}.yaml"), format!("/out/{path}"), 1..=count)
         }
@@ -99,6 +100,7 @@ fn expected(job: &FarmJob) -> Vec<Vec<String>> {
     for variant in variants {
         for frames in job.frames.chunks(job.chunk as usize) {
             let mut words = base(job);
+            words.extend(job.render.iter().cloned());
             for (axis, name) in variant.iter().flat_map(|v: &&JobVariant| &v.axes) {
                 words.extend(["--only".to_owned(), format!("{axis}={name}")]);
             }
@@ -168,7 +170,7 @@ proptest! {
     fn every_task_of_the_script_is_read_back(job in job()) {
         let script = slurm(&job).unwrap();
         for (index, mut words) in expected(&job).into_iter().enumerate() {
-            let at = base(&job).len();
+            let at = base(&job).len() + job.render.len();
             words.splice(at..at, ["--threads".to_owned(), "1".to_owned()]);
             let task = index.to_string();
             prop_assert_eq!(read_by_sh(&script, &[("SLURM_ARRAY_TASK_ID", &task)]), words);
@@ -189,10 +191,15 @@ proptest! {
 
     #[test]
     fn format_strings_resolve_to_what_went_in(job in job()) {
-        let template: Value = serde_yaml::from_str(&openjd(&job).unwrap()[2].1).unwrap();
-        let mut values = BTreeMap::new();
+        let [.., (_, flat), (_, template)] = openjd(&job).unwrap();
+        let template: Value = serde_yaml::from_str(&template).unwrap();
+        let mut values: BTreeMap<String, String> = serde_yaml::from_str(&flat).unwrap();
+        values = values.into_iter().map(|(name, value)| (format!("Param.{name}"), value)).collect();
         for parameter in template["parameterDefinitions"].as_sequence().unwrap() {
             let default = &parameter["default"];
+            if default.is_null() {
+                continue; // a path, whose value came from the other file
+            }
             let text = default.as_str().map_or_else(|| default.as_i64().unwrap().to_string(), str::to_owned);
             values.insert(format!("Param.{}", parameter["name"].as_str().unwrap()), text);
         }
@@ -220,6 +227,7 @@ proptest! {
             values.insert("Task.Param.Frame".to_owned(), "1,3".to_owned());
             let mut words = job.command.clone();
             words.extend(base(&job));
+            words.extend(job.render.iter().cloned());
             for (axis, name) in &variant.axes {
                 words.extend(["--only".to_owned(), format!("{axis}={name}")]);
             }
