@@ -45,14 +45,20 @@ struct Build<'b> {
 }
 
 impl Build<'_> {
-    fn refuse<E: serde::de::Error>(&self, words: String) -> E {
-        self.own.replace(Some(words));
+    fn refuse<E: serde::de::Error>(&self, words: &str) -> E {
+        self.own.replace(Some(format!("{}{words}", self.prefix())));
         E::custom("")
+    }
+
+    /// The way to it, as the library tells it before its own messages.
+    fn prefix(&self) -> String {
+        let path = self.origin.path().join(".");
+        if path.is_empty() { path } else { path + ": " }
     }
 
     fn node<E: serde::de::Error>(self, value: Value) -> Result<Node, E> {
         let Some(left) = self.left.get().checked_sub(1) else {
-            return Err(self.refuse(format!("comes to more than {MOST_VALUES} values")));
+            return Err(self.refuse(&format!("comes to more than {MOST_VALUES} values")));
         };
         self.left.set(left);
         Ok(Node { value, origin: self.origin })
@@ -80,7 +86,7 @@ impl<'de> Visitor<'de> for Build<'_> {
 
     fn visit_map<A: MapAccess<'de>>(self, mut entries: A) -> Result<Node, A::Error> {
         let mut map = Map::new();
-        while let Some(key) = entries.next_key_seed(NewKey { seen: &map, own: self.own })? {
+        while let Some(key) = entries.next_key_seed(NewKey { seen: &map, of: &self })? {
             let node = entries.next_value_seed(self.below(key.clone()))?;
             map.insert(key, node);
         }
@@ -96,7 +102,7 @@ impl<'de> Visitor<'de> for Build<'_> {
     }
 
     fn visit_enum<A: EnumAccess<'de>>(self, _: A) -> Result<Node, A::Error> {
-        Err(self.refuse("tags (`!name`) mean nothing here".to_owned()))
+        Err(self.refuse("tags (`!name`) mean nothing here"))
     }
 
     fn visit_bool<E: serde::de::Error>(self, value: bool) -> Result<Node, E> {
@@ -131,7 +137,7 @@ impl<'de> Visitor<'de> for Build<'_> {
 /// A key, if its mapping does not have it yet.
 struct NewKey<'s> {
     seen: &'s Map,
-    own: &'s RefCell<Option<String>>,
+    of: &'s Build<'s>,
 }
 
 impl<'de> DeserializeSeed<'de> for NewKey<'_> {
@@ -151,8 +157,7 @@ impl Visitor<'_> for NewKey<'_> {
 
     fn visit_str<E: serde::de::Error>(self, key: &str) -> Result<String, E> {
         if self.seen.contains_key(key) {
-            self.own.replace(Some(format!("the key `{key}` is there twice")));
-            return Err(E::custom(""));
+            return Err(self.of.refuse(&format!("the key `{key}` is there twice")));
         }
         Ok(key.to_owned())
     }

@@ -12,7 +12,7 @@ use crate::fault::Fault;
 use crate::include::{Gatherer, LONGEST, normal};
 use crate::setting::Setting;
 use crate::source::{Part, Source, Sources};
-use crate::tree::{Map, Node, Origin, Value, merge};
+use crate::tree::{Map, Node, Value, merge};
 use crate::typed::{self, Reading};
 use crate::variables::{Variables, count};
 
@@ -141,20 +141,21 @@ impl Document {
         Ok(())
     }
 
-    /// Lays keys and values of this document, as a node of it, over the top of it.
+    /// Lays a mapping that is part of this document over the top of it; one that holds nothing changes nothing.
     pub fn lay_over(&mut self, patch: &Node) {
-        merge(&mut self.root, patch.clone());
+        if !patch.is_null() {
+            merge(&mut self.root, patch.clone());
+        }
     }
 
-    /// A mapping of one way and one value, to be laid over the document.
+    /// A mapping of one value at the way that `key`, a text as `render.spp`, says; to be laid over the document.
     #[must_use]
-    pub fn patch(&self, path: &str, value: &Node) -> Node {
-        let mut node = value.clone();
-        for step in path.split('.').rev() {
-            let origin = Origin { used: None, ..value.origin.clone() };
-            node = Node { value: Value::Map(Map::from_iter([(step.to_owned(), node)])), origin };
-        }
-        node
+    pub fn patch(&self, key: &Node, value: &Node) -> Node {
+        let steps: Vec<&str> = key.text().unwrap_or_default().split('.').collect();
+        steps.into_iter().rev().fold(value.clone(), |node, step| Node {
+            value: Value::Map(Map::from_iter([(step.to_owned(), node)])),
+            origin: key.origin.clone(),
+        })
     }
 
     /// The document with its `variables` put in for their names, and without them; and the names that were
@@ -211,7 +212,15 @@ impl Document {
                 None => break,
             }
         }
-        self.sources.fault(&node.origin, Part::Value, key, message)
+        let mut fault = self.sources.fault(&node.origin, Part::Value, key, message);
+        // What disagrees below a mapping may have come by a setting: the last one is named.
+        let below = last_source(node);
+        if below > node.origin.source
+            && let Some(setting) = self.sources.0.get(below).and_then(|source| source.setting.as_deref())
+        {
+            fault.message += &format!(" (from `{setting}`)");
+        }
+        fault
     }
 
     /// A fault of a node of this document, which is called `key`.
@@ -233,6 +242,15 @@ impl Document {
         self.sources.0.get(node.origin.source).map_or(Path::new(""), |source| &source.folder)
     }
 
+    /// Makes the paths at these keys count from the folder of the document's first file, wherever they were
+    /// written: they are joined to [`Document::folder_of`] them. A `*` stands for every entry.
+    pub fn join_folders(&mut self, keys: &[&str]) {
+        for key in keys {
+            let steps: Vec<&str> = key.split('.').collect();
+            join_folder(&mut self.root, &steps, &self.sources);
+        }
+    }
+
     /// A single value letter by letter as it was written; `None` for lists and mappings.
     #[must_use]
     pub fn written(&self, node: &Node) -> Option<String> {
@@ -251,4 +269,36 @@ fn read_file(path: &Path) -> std::io::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     std::fs::File::open(path)?.take(LONGEST + 1).read_to_end(&mut bytes)?;
     Ok(bytes)
+}
+
+/// The last of the texts that something below `node` comes from.
+fn last_source(node: &Node) -> usize {
+    let below: &mut dyn Iterator<Item = &Node> = match &node.value {
+        Value::List(list) => &mut list.iter(),
+        Value::Map(map) => &mut map.values(),
+        _ => &mut std::iter::empty(),
+    };
+    below.map(last_source).max().unwrap_or_default().max(node.origin.source)
+}
+
+fn join_folder(node: &mut Node, steps: &[&str], sources: &Sources) {
+    match (steps, &mut node.value) {
+        ([], Value::Text(path)) => {
+            let folder = sources.0.get(node.origin.source).map(|source| source.folder.as_path());
+            if let Some(joined) = folder.map(|folder| normal(&folder.join(&*path)))
+                && folder != Some(Path::new(""))
+            {
+                *path = joined.to_string_lossy().into_owned();
+            }
+        }
+        (["*", rest @ ..], Value::List(list)) => {
+            list.iter_mut().for_each(|node| join_folder(node, rest, sources));
+        }
+        ([first, rest @ ..], _) => {
+            if let Some(child) = node.child_mut(first) {
+                join_folder(child, rest, sources);
+            }
+        }
+        _ => {}
+    }
 }

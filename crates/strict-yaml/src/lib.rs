@@ -37,7 +37,7 @@ pub use document::{Document, DocumentError};
 pub use fault::{Fault, Place, YamlFault};
 pub use locate::locate;
 pub use nearest::nearest;
-pub use read::{parse, parse_with};
+pub use read::parse;
 pub use setting::Setting;
 pub use tree::Node;
 pub use typed::Reading;

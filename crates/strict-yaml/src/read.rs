@@ -1,7 +1,6 @@
 //! YAML to a struct.
 
 use serde::de::DeserializeOwned;
-use serde_yaml::Value;
 
 use crate::fault::{Place, YamlFault, place_of};
 use crate::{twins, words};
@@ -58,55 +57,5 @@ pub(crate) fn check_nesting(text: &str) -> Result<(), YamlFault> {
             }
         }
     }
-    Ok(())
-}
-
-/// As [`parse`], with `path=value` settings laid over the text, each as `render.spp=4`.
-///
-/// # Errors
-/// As [`parse`]; a fault that a setting brought in names the setting and has no place.
-pub fn parse_with<T: DeserializeOwned + Default>(text: &str, settings: &[String]) -> Result<T, YamlFault> {
-    // The text alone first: its faults have places, those of the laid-over tree do not.
-    let read = parse(text)?;
-    if settings.is_empty() {
-        return Ok(read);
-    }
-    let place_of_none = |message| YamlFault { place: None, message };
-    let mut tree: Value = serde_yaml::from_str(text).map_err(|e| place_of_none(e.to_string()))?;
-    let mut read = read;
-    for setting in settings {
-        let fault = |message: String| place_of_none(format!("--set {setting}: {message}"));
-        let (path, value) =
-            setting.split_once('=').ok_or_else(|| fault("expected `key.key=value`".into()))?;
-        check_nesting(value).map_err(|f| fault(f.message))?;
-        let value: Value = serde_yaml::from_str(value).map_err(|e| fault(in_words(&e)))?;
-        lay(&mut tree, path.trim(), value).map_err(fault)?;
-        read = serde_yaml::from_value(tree.clone()).map_err(|e| fault(in_words(&e)))?;
-    }
-    Ok(read)
-}
-
-fn lay(tree: &mut Value, path: &str, value: Value) -> Result<(), String> {
-    let mut here = tree;
-    for key in path.split('.') {
-        if key.is_empty() {
-            return Err("a key is empty".into());
-        }
-        if here.is_null() {
-            *here = Value::Mapping(serde_yaml::Mapping::new());
-        }
-        here = match here {
-            Value::Mapping(map) => map.entry(Value::from(key)).or_insert(Value::Null),
-            Value::Sequence(list) => {
-                let count = list.len();
-                let index = key.parse::<usize>().ok().filter(|&i| i < count);
-                let index =
-                    index.ok_or_else(|| format!("`{key}` is none of the {count} entries (0, 1, ...)"))?;
-                &mut list[index]
-            }
-            _ => return Err(format!("there are no keys below the one before `{key}`")),
-        };
-    }
-    *here = value;
     Ok(())
 }

@@ -26,13 +26,19 @@ impl Setting {
         format!("{} {}", self.flag, self.text)
     }
 
-    /// The first key of its way.
+    /// Whether it lies at or below `key`, the first of its way.
     #[must_use]
-    pub fn begins(&self) -> &str {
-        if self.flag == "-D" {
-            return "variables";
+    pub fn is_below(&self, key: &str) -> bool {
+        self.parts().is_ok_and(|(steps, _)| steps.first() == Some(&key))
+    }
+
+    /// The name of the variable it gives a value to, if that is what it does.
+    #[must_use]
+    pub fn variable_name(&self) -> Option<&str> {
+        match *self.parts().ok()?.0 {
+            ["variables", name, ..] => Some(name),
+            _ => None,
         }
-        self.text.split(['.', '=']).next().unwrap_or_default().trim()
     }
 
     /// The way, step by step, and the value.

@@ -12,6 +12,8 @@ use crate::tree::{Map, Node, Origin, Value};
 const MOST_LETTERS: usize = 1 << 20;
 /// Variables that use each other deeper than this are taken for a slip.
 const DEEPEST: usize = 32;
+/// Values below each other: as many as the YAML library itself takes.
+const DEEPEST_VALUE: usize = 128;
 
 /// A part of a text.
 #[derive(Debug, PartialEq)]
@@ -98,7 +100,7 @@ impl<'v> Variables<'v> {
                 }
             }
             Value::Map(map) => map.iter_mut().for_each(|(name, node)| self.put_in(node, &below(name))),
-            Value::Text(text) if text.contains("${") => match self.text(text, node.origin.clone()) {
+            Value::Text(text) if text.contains("${") => match self.text(text, node.origin.clone(), key) {
                 Ok(new) => *node = new,
                 Err(message) => {
                     self.fault(node, key, message);
@@ -116,10 +118,13 @@ impl<'v> Variables<'v> {
         }
     }
 
-    fn text(&mut self, text: &str, origin: Origin) -> Result<Node, String> {
+    fn text(&mut self, text: &str, origin: Origin, key: &str) -> Result<Node, String> {
         let pieces = pieces(text)?;
         if let [Piece::Variable(name)] = *pieces {
             let mut node = self.value(name)?;
+            if size(&node).depth + key.split('.').count() > DEEPEST_VALUE {
+                return Err(format!("comes to more than {DEEPEST_VALUE} values below each other"));
+            }
             node.origin.used = Some(std::sync::Arc::new((name.to_owned(), origin)));
             return Ok(node);
         }
@@ -179,7 +184,7 @@ impl<'v> Variables<'v> {
         };
         let too_much = || format!("comes to more than {MOST_VALUES} values by its variables");
         let too_long = || format!("comes to more than {MOST_LETTERS} letters by its variables");
-        let (values, letters) = size(node);
+        let Size { values, letters, .. } = size(node);
         self.values_left = self.values_left.checked_sub(values).ok_or_else(too_much)?;
         self.letters_left = self.letters_left.checked_sub(letters).ok_or_else(too_long)?;
         Ok(node.clone())
@@ -203,22 +208,32 @@ impl<'v> Variables<'v> {
     }
 }
 
-/// How many values and letters a tree holds.
-fn size(node: &Node) -> (usize, usize) {
-    let sum = |nodes: &mut dyn Iterator<Item = &Node>| {
-        nodes.map(size).fold((1, 0), |(values, letters), (v, l)| (values + v, letters + l))
+/// How much a tree holds.
+#[derive(Clone, Copy, Default)]
+struct Size {
+    values: usize,
+    letters: usize,
+    depth: usize,
+}
+
+fn size(node: &Node) -> Size {
+    let add = |a: Size, b: Size| Size {
+        values: a.values + b.values,
+        letters: a.letters + b.letters,
+        depth: a.depth.max(b.depth + 1),
     };
+    let one = Size { values: 1, letters: 0, depth: 1 };
     match &node.value {
-        Value::Text(text) => (1, text.len()),
-        Value::List(list) => sum(&mut list.iter()),
-        Value::Map(map) => sum(&mut map.values()),
-        _ => (1, 0),
+        Value::Text(text) => Size { letters: text.len(), ..one },
+        Value::List(list) => list.iter().map(size).fold(one, add),
+        Value::Map(map) => map.values().map(size).fold(one, add),
+        _ => one,
     }
 }
 
 /// How many values a tree holds.
 pub(crate) fn count(node: &Node) -> usize {
-    size(node).0
+    size(node).values
 }
 
 #[cfg(test)]

@@ -119,4 +119,6 @@ fn faults_found_later_have_their_place_too() {
     assert_eq!(told("r.none"), "b.yaml:2:3: r.none: is bad");
     assert_eq!(told("none"), "a.yaml: none: is bad");
     assert_eq!(told("r.depth"), "a.yaml: r.depth: is bad (from `--set r.depth=9`)");
+    // A setting may be what makes keys disagree.
+    assert_eq!(told("r"), "b.yaml:2:3: r: is bad (from `--set r.depth=9`)");
 }

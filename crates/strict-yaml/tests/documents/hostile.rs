@@ -14,6 +14,12 @@ fn variables_that_double_are_stopped() {
     let lists = text.replace("${a", "'${a").replace('}', "}',").replace(": '", ": ['").replace(",\n", "]\n");
     let told = lines(&one(&lists).with_variables().unwrap_err());
     assert!(told[0].contains("comes to more than 50000 values by its variables"), "{told:#?}");
+    let mut deep = "variables:\n  a0: 1\n".to_owned();
+    for i in 1..20 {
+        deep += &format!("  a{i}: {}'${{a{}}}'{}\n", "[".repeat(20), i - 1, "]".repeat(20));
+    }
+    let told = lines(&one(&deep).with_variables().unwrap_err());
+    assert!(told[0].contains("comes to more than 128 values below each other"), "{told:#?}");
     let mut chain = "variables:\n  a0: 1\n".to_owned();
     for i in 1..5000 {
         chain += &format!("  b{i}: ${{b{}}}\n", i + 1);

@@ -33,6 +33,25 @@ fn mappings_merge_and_anything_else_replaces() {
 }
 
 #[test]
+fn paths_are_made_to_count_from_the_first_files_folder() {
+    let mut document = open(&[
+        ("dir/a.yaml", "include: sub/b.yaml\nvariables: {own: own.hair}\nmesh: {file: a.obj}\n"),
+        ("dir/sub/b.yaml", "variables: {own: none, lower: low.hair}\ngroom: {file: '${own}', name: b}\nsky: {file: x/sky.hdr}\nlist: [{file: '${lower}'}, {file: /abs}, {}]\n"),
+    ])
+    .unwrap();
+    document.lay(&strict_yaml::Setting::set("list.2.file=here.txt")).unwrap();
+    let mut document = document.with_variables().unwrap().0;
+    document.join_folders(&["groom.file", "mesh.file", "sky.file", "list.*.file", "none.file"]);
+    assert_eq!(
+        said(&document),
+        json!({
+            "groom": {"file": "own.hair", "name": "b"}, "mesh": {"file": "a.obj"}, "sky": {"file": "sub/x/sky.hdr"},
+            "list": [{"file": "sub/low.hair"}, {"file": "/abs"}, {"file": "here.txt"}]
+        })
+    );
+}
+
+#[test]
 fn what_cannot_be_included_is_told_where_it_is_asked_for() {
     assert_eq!(
         refused(&[
@@ -60,9 +79,9 @@ fn every_file_tells_its_own_faults() {
             ("d.yaml", "x: !tag 1\n"),
         ]),
         [
-            "b.yaml:2:11: the key `x` is there twice",
+            "b.yaml:2:11: y: the key `x` is there twice",
             "c.yaml:1:1: is a list, expected keys and values",
-            "d.yaml:1:4: tags (`!name`) mean nothing here",
+            "d.yaml:1:4: x: tags (`!name`) mean nothing here",
         ]
     );
     assert!(refused(&[("a.yaml", "x: [1\n")])[0].starts_with("a.yaml:2:1: "));
