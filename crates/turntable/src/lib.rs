@@ -41,7 +41,7 @@ pub mod schema;
 mod stage;
 
 pub use error::TurntableError;
-pub use expand::Variant;
+pub use expand::{Checked, Variant, check_pipeline};
 pub use explain::Remark;
 pub use frames::{FrameRange, FrameRangeError};
 pub use plan::{Options, Plan, State, Step, StepKind};

@@ -15,6 +15,8 @@ use crate::{Fault, FrameRange, TurntableError, frame_file};
 pub struct Options {
     /// Settings laid over the file's, each as `render.spp=4`.
     pub settings: Vec<String>,
+    /// Values of variables, each as `quality=4`; laid over the file's.
+    pub variables: Vec<String>,
     /// Output folder instead of the file's.
     pub output: Option<PathBuf>,
     /// Frames to look after; all when `None`.

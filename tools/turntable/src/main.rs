@@ -61,6 +61,7 @@ fn run(args: &Args) -> anyhow::Result<Outcome> {
         frames: args.frames.clone(),
         threads: args.threads.map(usize::from),
         command: command_line::words(),
+        ..Options::default()
     };
     let plan = Plan::new(&args.pipeline, options)?;
     if args.explain || args.check {
