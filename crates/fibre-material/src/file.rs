@@ -17,6 +17,7 @@ use crate::import::{
 /// The colour is said in one way: `color`, `absorption`, `melanin` (with `redness`), `eumelanin` and
 /// `pheomelanin`, `groom`, `texture` or `color_ramp`. Without any, the groom's own colour counts.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct MaterialFile {
     /// Begin with this preset; the other keys change it.
@@ -25,16 +26,22 @@ pub struct MaterialFile {
     pub file: Option<PathBuf>,
 
     /// Colour of many strands seen together, linear Rec. 709, 0..1.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0, max = 1.0))))]
     pub color: Option<[f32; 3]>,
     /// Absorption per fibre radius, at least 0.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0))))]
     pub absorption: Option<[f32; 3]>,
     /// Pigment, perceptually even: 0 white, 0.1 to 0.3 blond, 1 black.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub melanin: Option<f32>,
     /// Share of red pigment, 0..1; needs `melanin`.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub redness: Option<f32>,
     /// Concentration of the brown to black pigment: about 0.3 blond, 1.3 brown, 8 black.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10_000.0)))]
     pub eumelanin: Option<f32>,
     /// Concentration of the yellow to red pigment.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 10_000.0)))]
     pub pheomelanin: Option<f32>,
     /// What a unit of pigment absorbs: `deon` (pbrt, Mitsuba, MaterialX) or `cycles`.
     pub pigments: Option<PigmentSet>,
@@ -46,12 +53,15 @@ pub struct MaterialFile {
     pub color_ramp: Option<Vec<(f32, [f32; 3])>>,
 
     /// Roughness along the fibre, 0.001..1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.001, max = 1.0)))]
     pub beta_m: Option<f32>,
     /// Roughness around the fibre, 0.001..1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.001, max = 1.0)))]
     pub beta_n: Option<f32>,
     /// How much rougher TT and TRT are than R along the fibre.
     pub roughness_scales: Option<ScalesFile>,
     /// Tilt of the cuticle's scales in degrees, above 0 for real hair.
+    #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = -90, "exclusiveMaximum" = 90)))]
     pub alpha: Option<f32>,
     /// Index of refraction.
     pub eta: Option<f32>,
@@ -92,11 +102,13 @@ pub struct MaterialFile {
     /// `near`, every hit with its own offset across the fibre, or `far`, offsets integrated out.
     pub field: Option<FieldName>,
     /// Offsets in the far field's quadrature, 1..=64; needs `field: far`.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1, max = 64)))]
     pub nodes: Option<u32>,
 }
 
 /// What a unit of pigment absorbs: programs disagree.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum PigmentSet {
     /// d'Eon et al. 2011: pbrt, Mitsuba, MaterialX.
@@ -134,11 +146,14 @@ impl MaterialFile {
 
 /// Colour from the groom's attributes: `color`, or `melanin` and `redness` where `melanin` is said here.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct GroomColor {
     /// What a groom without `color` gets.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0, max = 1.0))))]
     pub color: Option<[f32; 3]>,
     /// What a groom without `melanin` gets.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub melanin: Option<f32>,
     /// What a groom without `redness` gets.
     pub redness: Option<f32>,
@@ -146,6 +161,7 @@ pub struct GroomColor {
 
 /// A picture at the strands' `root_uv`.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct TextureFile {
     /// A `.png` (sRGB) or `.hdr` (linear), relative to the material file.
@@ -156,6 +172,7 @@ pub struct TextureFile {
 
 /// Where v = 0 is in a picture.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum VDirection {
     /// At the bottom: USD, Blender, Houdini.
@@ -167,6 +184,7 @@ pub enum VDirection {
 
 /// Factors on the roughness along the fibre.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct ScalesFile {
     /// Of TT; 0.5 when absent.
@@ -177,25 +195,32 @@ pub struct ScalesFile {
 
 /// Factors on the lobes, 1 when absent.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct LobesFile {
     /// Reflected at the surface.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     #[serde(rename = "R")]
     pub r: Option<f32>,
     /// Transmitted twice.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     #[serde(rename = "TT")]
     pub tt: Option<f32>,
     /// Reflected once inside.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     #[serde(rename = "TRT")]
     pub trt: Option<f32>,
     /// Reflected twice or more inside.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub residual: Option<f32>,
     /// Scattered by the medulla.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0)))]
     pub scattered: Option<f32>,
 }
 
 /// A film of water.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct FilmFile {
     /// Index of refraction; 1.33 when absent.
@@ -206,29 +231,38 @@ pub struct FilmFile {
 
 /// The core of fur: Yan et al. 2017. What is absent is 0.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct MedullaFile {
     /// Radius of the medulla over that of the fibre, 0..0.99.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.99)))]
     pub kappa: Option<f32>,
     /// Scattering per fibre radius, 0..100.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 100.0)))]
     pub sigma_s: Option<f32>,
     /// Absorption per fibre radius, at least 0.
     pub sigma_a: Option<[f32; 3]>,
     /// Mean cosine of the phase function, -0.99..0.99.
+    #[cfg_attr(feature = "schema", schemars(range(min = -0.99, max = 0.99)))]
     pub g: Option<f32>,
 }
 
 /// The core of fur by the controls of [`crate::FurControls`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct FurFile {
     /// Colour of the cortex: another name for the material's `color`.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0, max = 1.0))))]
     pub base_color: Option<[f32; 3]>,
     /// Colour of the medulla; as the cortex when absent.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0, max = 1.0))))]
     pub medulla_color: Option<[f32; 3]>,
     /// How much of the fibre is medulla, 0..1; 0.5 when absent.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub medulla_index: Option<f32>,
     /// How much it scatters, 0..5; 0.065 when absent.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 5.0)))]
     pub medulla_scattering: Option<f32>,
     /// Layers of cuticle scales.
     pub cuticle_layers: Option<f32>,
@@ -236,30 +270,40 @@ pub struct FurFile {
 
 /// How strands differ: see [`crate::Variation`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct VariationFile {
     /// Everything random follows from it; 0 when absent.
     pub seed: Option<u64>,
     /// Amount of the factor on the pigment, 0..1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub pigment: Option<f32>,
     /// How far redness moves, 0..1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub redness: Option<f32>,
     /// How far the hue turns to either side, degrees.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 180.0)))]
     pub hue: Option<f32>,
     /// Amount of the factor on the colour's value, 0..1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub value: Option<f32>,
     /// Amount of the factor on the roughness, 0..0.99.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 0.99)))]
     pub roughness: Option<f32>,
     /// Share of white hairs, 0..1.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub white: Option<f32>,
     /// Melanin of white hairs, 0..1; none when absent.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub white_melanin: Option<f32>,
     /// Colour of white hairs.
+    #[cfg_attr(feature = "schema", schemars(inner(range(min = 0.0, max = 1.0))))]
     pub white_color: Option<[f32; 3]>,
 }
 
 /// Factors from root to tip: how far along (0 to 1) and the factor there, at least 0.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct AlongFile {
     /// On the absorption.
@@ -270,6 +314,7 @@ pub struct AlongFile {
 
 /// How wide a fibre is on the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum FieldName {
     /// Every hit has its own offset across the fibre.

@@ -40,6 +40,7 @@ impl Assign<Option<f32>> for f32 {
 
 /// An angle the file states in degrees and the other program's struct holds in radians.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(transparent)]
 pub struct Degrees(pub f32);
 
@@ -51,6 +52,7 @@ impl Assign<f32> for Degrees {
 
 /// Where Cycles takes the absorption from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(rename_all = "lowercase")]
 pub enum CyclesColoring {
     /// Direct coloring.
@@ -77,6 +79,7 @@ macro_rules! block {
      $(beside { $($own:ident: $own_kind:ty),+ })?) => {
         $(#[$doc])*
         #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+        #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
         #[serde(deny_unknown_fields, default)]
         pub struct $name {
             $(

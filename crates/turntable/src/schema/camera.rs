@@ -2,22 +2,28 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How the groom is framed: from a circle about the target, from one place (`position`), or as a camera of a scene
 /// file sees it (`file`).
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraSettings {
     /// Vertical field of view, degrees.
+    #[schemars(extend("exclusiveMinimum" = 0, "exclusiveMaximum" = 180))]
     pub fov: f64,
     /// Angle above the horizon, degrees.
+    #[schemars(range(min = -90.0, max = 90.0))]
     pub elevation: f64,
     /// Angle above the horizon at the last frame; `elevation` throughout when absent.
+    #[schemars(range(min = -90.0, max = 90.0))]
     pub elevation_to: Option<f64>,
     /// Distance to the target in metres; far enough for everything to fit when absent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub distance: Option<f64>,
     /// Factor on the size in the picture when the distance is fitted.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub zoom: f64,
     /// What is looked at, in world metres, Y up; the middle of the scene when absent.
     pub target: Option<[f64; 3]>,
@@ -46,7 +52,7 @@ impl Default for CameraSettings {
 }
 
 /// A camera of a scene file.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CameraFile {
     /// `.gltf`, `.glb`, `.usda`, `.usdc` or `.usdz`, relative to the pipeline file.

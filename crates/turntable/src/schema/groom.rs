@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Where the strands come from: a file or a made-up sample, one of the two.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct GroomSource {
     /// A groom file, relative to the pipeline file.
@@ -15,20 +16,23 @@ pub struct GroomSource {
     /// Which axis of the file points up; the file's own word when absent.
     pub up: Option<Axis>,
     /// Metres in one unit of the file; the file's own word, or 1, when absent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub meters_per_unit: Option<f64>,
     /// Mend what is merely odd in a file (zero-length segments, one-point strands).
     pub repair: bool,
 }
 
 /// A groom the program makes itself.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct SampleSource {
     /// Kind of hair.
     pub style: Style,
     /// How many strands.
+    #[schemars(range(min = 1, max = 4_000_000))]
     pub strands: u32,
     /// Points a strand.
+    #[schemars(range(min = 3, max = 1000))]
     pub points: u32,
     /// Everything random follows from it.
     pub seed: u64,
@@ -41,7 +45,7 @@ impl Default for SampleSource {
 }
 
 /// Kind of made-up hair.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Style {
     /// Straight hair.
@@ -53,7 +57,7 @@ pub enum Style {
 }
 
 /// An axis.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Axis {
     /// The second axis.

@@ -2,10 +2,11 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// What shines.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Lights {
     /// Light from all around.
@@ -17,18 +18,20 @@ pub struct Lights {
 }
 
 /// Light from all around: one of `file`, `constant` or `studio: true`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct EnvironmentSource {
     /// An equirectangular `.hdr` or `.exr`, relative to the pipeline file.
     pub file: Option<PathBuf>,
     /// The same radiance from everywhere.
+    #[schemars(inner(range(min = 0.0)))]
     pub constant: Option<[f32; 3]>,
     /// A studio the program makes itself: soft boxes over a grey room.
     pub studio: bool,
     /// Turn about the up axis, degrees.
     pub rotation: f32,
     /// Factor on the radiance.
+    #[schemars(range(min = 0.0))]
     pub intensity: f32,
 }
 
@@ -39,7 +42,7 @@ impl Default for EnvironmentSource {
 }
 
 /// A rectangle that shines from its front, in world metres, Y up.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct AreaSource {
     /// Its middle, metres.
@@ -49,6 +52,7 @@ pub struct AreaSource {
     /// Width and height, metres.
     pub size: [f32; 2],
     /// Radiance, linear Rec. 709.
+    #[schemars(inner(range(min = 0.0)))]
     pub radiance: [f32; 3],
 }
 
@@ -59,12 +63,14 @@ impl Default for AreaSource {
 }
 
 /// A Cornell box: five walls and a light in the ceiling, open towards azimuth 0.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct CornellBox {
     /// Edge over the largest edge of what stands in it.
+    #[schemars(extend("exclusiveMinimum" = 1, "maximum" = 1000))]
     pub room: f64,
     /// Factor on the light's radiance.
+    #[schemars(range(min = 0.0))]
     pub intensity: f32,
 }
 

@@ -2,12 +2,13 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::Axis;
 
 /// A matte mesh.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct MeshSource {
     /// `.obj`, `.gltf`, `.glb`, `.usda`, `.usdc`, `.usdz` or a sequence `head.####.obj`, relative to the pipeline
@@ -16,8 +17,10 @@ pub struct MeshSource {
     /// Which axis of the file points up; the file's own word when absent.
     pub up: Option<Axis>,
     /// Metres in one unit of the file; the file's own word when absent.
+    #[schemars(extend("exclusiveMinimum" = 0))]
     pub meters_per_unit: Option<f64>,
     /// Reflected share of the light, linear Rec. 709.
+    #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub albedo: [f32; 3],
     /// Which animation moves it, by name or by number from 0 (glTF); the first when absent. Nothing of it moves
     /// without `motion`.

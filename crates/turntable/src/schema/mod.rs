@@ -5,12 +5,14 @@
 use std::path::PathBuf;
 
 use fibre_material::MaterialFile;
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 mod attributes;
 mod binding;
 mod camera;
 mod comp;
+mod editor;
 mod groom;
 mod lights;
 mod mesh;
@@ -26,6 +28,7 @@ pub use attributes::Attributes;
 pub use binding::{Beyond, Bind, BindBy, BindMode, Rest};
 pub use camera::{CameraFile, CameraSettings};
 pub use comp::Comp;
+pub use editor::{json_schema, json_schema_text};
 pub use groom::{Axis, GroomSource, SampleSource, Style};
 pub use lights::{AreaSource, CornellBox, EnvironmentSource, Lights};
 pub use mesh::MeshSource;
@@ -38,10 +41,11 @@ pub use turn::{Ease, Turn, Turning};
 pub use video::{Codec, Video};
 
 /// A whole pipeline. Paths are relative to the file they are written in.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Pipeline {
     /// Version of these keys; 1.
+    #[schemars(extend("minimum" = 1, "maximum" = 1))]
     pub version: Option<u32>,
     /// What the pipeline is called; the file's name when absent.
     pub name: Option<String>,

@@ -1,16 +1,20 @@
 //! How a frame is rendered.
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// How a frame is rendered.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Render {
     /// Pixels across.
+    #[schemars(range(min = 1, max = 65_536))]
     pub width: u32,
     /// Pixels down.
+    #[schemars(range(min = 1, max = 65_536))]
     pub height: u32,
     /// Samples a pixel.
+    #[schemars(range(min = 1))]
     pub spp: u32,
     /// Everything random follows from it.
     pub seed: u64,
@@ -40,7 +44,7 @@ impl Default for Render {
 }
 
 /// How exactly pixels are stored.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Precision {
     /// 32 bits a channel.

@@ -2,17 +2,20 @@
 
 use std::path::PathBuf;
 
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// The contact sheet.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Sheet {
     /// The PNG, in the output folder.
     pub file: PathBuf,
     /// Pictures in a row; where there is a `matrix`, all of its last axis when absent, else about square.
+    #[schemars(range(min = 1))]
     pub columns: Option<u32>,
     /// Pixels between frames.
+    #[schemars(range(max = 1024))]
     pub gap: u32,
     /// Write each frame's number in its corner.
     pub labels: bool,
@@ -27,7 +30,7 @@ impl Default for Sheet {
 }
 
 /// Something to be written under a picture.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Caption {
     /// The names of the variant's settings.
