@@ -206,16 +206,21 @@ impl Document {
     #[must_use]
     pub fn fault(&self, key: &str, message: String) -> Fault {
         let mut node = &self.root;
+        let mut is_there = true;
         for step in key.split('.') {
             match node.child(step) {
                 Some(child) => node = child,
-                None => break,
+                None => {
+                    is_there = false;
+                    break;
+                }
             }
         }
         let mut fault = self.sources.fault(&node.origin, Part::Value, key, message);
         // What disagrees below a mapping may have come by a setting: the last one is named.
         let below = last_source(node);
-        if below > node.origin.source
+        if is_there
+            && below > node.origin.source
             && let Some(setting) = self.sources.0.get(below).and_then(|source| source.setting.as_deref())
         {
             fault.message += &format!(" (from `{setting}`)");
