@@ -1,5 +1,6 @@
 //! Pictures of one size side by side in one.
 
+use crate::caption::Caption;
 use crate::{Preview, digits};
 
 /// How the cells of a contact sheet stand.
@@ -13,6 +14,8 @@ pub struct SheetLayout {
     pub gap: u32,
     /// Whether each cell carries its number, from 1, in its upper left corner (large enough cells only).
     pub labels: bool,
+    /// Lines of words on a dark strip under each cell, 0 for none; see [`ContactSheet::caption`].
+    pub caption_lines: u32,
 }
 
 impl SheetLayout {
@@ -24,11 +27,16 @@ impl SheetLayout {
         let side = |cells: u64, cell: u32| {
             u64::from(self.gap) + cells * u64::from(cell.max(1).saturating_add(self.gap))
         };
-        (side(columns, self.cell.0), side(rows, self.cell.1))
+        (side(columns, self.cell.0), side(rows, self.cell.1.saturating_add(self.strip())))
+    }
+
+    /// Rows of pixels that the words under a cell take.
+    fn strip(&self) -> u32 {
+        Caption::for_width(self.cell.0).height(self.caption_lines)
     }
 
     fn columns_of(&self, count: u32) -> u32 {
-        let (width, height) = self.cell;
+        let (width, height) = (self.cell.0, self.cell.1.saturating_add(self.strip()));
         self.columns
             .unwrap_or_else(|| about_square(count, width.max(1), height.max(1)))
             .clamp(1, count.max(1))
@@ -60,11 +68,7 @@ impl ContactSheet {
 
     /// Puts cell `number` (from 1) in its place. What lies outside the sheet is left out.
     pub fn place(&mut self, number: u32, cell: &Preview) {
-        let SheetLayout { cell: (width, height), gap, labels, .. } = self.layout;
-        let index = number.saturating_sub(1);
-        let left = gap + index % self.columns * (width + gap);
-        let top = u64::from(gap) + u64::from(index / self.columns) * u64::from(height + gap);
-        let Ok(top) = u32::try_from(top) else { return };
+        let Some((left, top)) = self.corner(number) else { return };
         let row_bytes = cell.width as usize * 4;
         for (y, row) in cell.rgba.chunks_exact(row_bytes.max(1)).enumerate() {
             let start = ((top as usize + y) * self.picture.width as usize + left as usize) * 4;
@@ -72,9 +76,39 @@ impl ContactSheet {
                 to.copy_from_slice(row);
             }
         }
-        if labels {
+        if self.layout.labels {
             self.label(number, left, top);
         }
+    }
+
+    /// Writes one line of words after the other under cell `number` (from 1), white on a dark strip, in
+    /// letters sized to the cell. A line that is too long is shortened and ends in dots; lines beyond
+    /// [`SheetLayout::caption_lines`] are left out. Letters outside of Latin-1 show as `?`.
+    pub fn caption(&mut self, number: u32, lines: &[&str]) {
+        let SheetLayout { cell: (width, height), caption_lines, .. } = self.layout;
+        let Some((left, top)) = self.corner(number) else { return };
+        let Some(top) = top.checked_add(height).filter(|_| caption_lines > 0) else { return };
+        let kept = lines.iter().take(caption_lines as usize);
+        let strip = Caption::for_width(width).drawn(width, caption_lines, kept.copied());
+        let row_bytes = strip.width as usize * 4;
+        for (y, row) in strip.rgba.chunks_exact(row_bytes.max(1)).enumerate() {
+            let start = ((top as usize + y) * self.picture.width as usize + left as usize) * 4;
+            if let Some(to) = self.picture.rgba.get_mut(start..start + row_bytes) {
+                to.copy_from_slice(row);
+            }
+        }
+    }
+
+    /// The upper left corner of a cell; `None` beyond what 32 bits count.
+    fn corner(&self, number: u32) -> Option<(u32, u32)> {
+        let SheetLayout { cell: (width, height), gap, .. } = self.layout;
+        let index = number.saturating_sub(1);
+        let step = |size: u32, cells: u32| {
+            let pitch = u64::from(size) + u64::from(gap);
+            u32::try_from(u64::from(gap) + u64::from(cells) * pitch).ok()
+        };
+        let down = height.checked_add(self.layout.strip())?;
+        Some((step(width, index % self.columns)?, step(down, index / self.columns)?))
     }
 
     /// The number in the upper left corner of its frame, sized to it; small frames have none.
@@ -124,7 +158,7 @@ mod tests {
     use super::*;
 
     fn layout(cell: (u32, u32), columns: u32, gap: u32, labels: bool) -> SheetLayout {
-        SheetLayout { cell, columns: Some(columns), gap, labels }
+        SheetLayout { cell, columns: Some(columns), gap, labels, caption_lines: 0 }
     }
 
     #[test]
@@ -148,7 +182,7 @@ mod tests {
         assert_eq!(about_square(8, 100, 100), 4);
         assert_eq!(about_square(8, 50, 100), 4);
         assert_eq!(about_square(1, 100, 100), 1);
-        let free = SheetLayout { cell: (100, 100), columns: None, gap: 2, labels: false };
+        let free = SheetLayout { cell: (100, 100), columns: None, gap: 2, labels: false, caption_lines: 0 };
         assert_eq!(free.size(12), (4 * 102 + 2, 3 * 102 + 2));
     }
 
@@ -158,6 +192,30 @@ mod tests {
         let mut empty = ContactSheet::new(layout((0, 0), 1, 0, true), 0, [0; 3]).unwrap();
         empty.place(0, &Preview { width: 3, height: 3, rgba: vec![0; 36] });
         empty.place(u32::MAX, &Preview { width: 0, height: 0, rgba: Vec::new() });
+    }
+
+    #[test]
+    fn words_stand_under_their_cell_and_nowhere_else() {
+        let captioned = SheetLayout { caption_lines: 2, ..layout((120, 40), 2, 3, false) };
+        let mut sheet = ContactSheet::new(captioned, 3, [9, 9, 9]).unwrap();
+        let strip = captioned.strip();
+        assert!(strip >= 2 * 6 && captioned.size(3) == (3 + 2 * 123, 3 + 2 * u64::from(40 + strip + 3)));
+        for number in 1..=3 {
+            sheet.place(number, &Preview { width: 120, height: 40, rgba: [200, 0, 0, 255].repeat(120 * 40) });
+        }
+        let before = sheet.clone().finish();
+        sheet.caption(2, &["sky", "1.8 % 3.2 s", "left out"]);
+        let after = sheet.finish();
+        let changed = |x: u32, y: u32| {
+            let at = (y * after.width + x) as usize * 4;
+            before.rgba[at..at + 4] != after.rgba[at..at + 4]
+        };
+        for y in 0..after.height {
+            for x in 0..after.width {
+                let inside = (126..246).contains(&x) && (43..43 + strip).contains(&y);
+                assert_eq!(changed(x, y), inside, "{x} {y}");
+            }
+        }
     }
 
     #[test]

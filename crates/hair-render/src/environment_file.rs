@@ -31,6 +31,26 @@ struct Source<'a> {
 }
 
 pub(crate) fn read(path: &Path) -> Result<Environment, RenderError> {
+    let LightPicture { width, height, pixels } = read_light(path)?;
+    Environment::from_pixels(width, height, pixels).map_err(|fault| invalid(path, fault))
+}
+
+/// A picture of light: linear Rec. 709, row by row from the upper left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightPicture {
+    /// Pixels across.
+    pub width: usize,
+    /// Pixels down.
+    pub height: usize,
+    /// width x height values.
+    pub pixels: Vec<Vec3>,
+}
+
+/// Reads the colours of a Radiance `.hdr` or an OpenEXR file, by its bytes and not its name; alpha is left out.
+///
+/// # Errors
+/// [`RenderError::Io`], [`RenderError::InvalidPicture`] or [`RenderError::UnsupportedPicture`].
+pub fn read_light(path: &Path) -> Result<LightPicture, RenderError> {
     let io = |source| RenderError::Io { path: path.to_owned(), source };
     let mut file = BufReader::new(File::open(path).map_err(io)?);
     let bytes = file.get_ref().metadata().map_err(io)?.len();
@@ -55,10 +75,6 @@ fn invalid(path: &Path, reason: impl ToString) -> RenderError {
     RenderError::InvalidPicture { path: path.to_owned(), reason: reason.to_string() }
 }
 
-fn finish(path: &Path, width: usize, height: usize, pixels: Vec<Vec3>) -> Result<Environment, RenderError> {
-    Environment::from_pixels(width, height, pixels).map_err(|fault| invalid(path, fault))
-}
-
 /// Refuses a size that is out of bounds, or that a file of `bytes` cannot hold.
 fn check_size([width, height]: [u64; 2], bytes: u64, pixels_a_byte: u64) -> Result<(), String> {
     let most = MOST_PIXELS.min(bytes.saturating_mul(pixels_a_byte));
@@ -70,14 +86,14 @@ fn check_size([width, height]: [u64; 2], bytes: u64, pixels_a_byte: u64) -> Resu
     }
 }
 
-fn read_hdr(Source { path, file, bytes }: Source) -> Result<Environment, RenderError> {
+fn read_hdr(Source { path, file, bytes }: Source) -> Result<LightPicture, RenderError> {
     use image::ImageDecoder;
     let decoder = image::codecs::hdr::HdrDecoder::new(file).map_err(|fault| invalid(path, fault))?;
     let (width, height) = decoder.dimensions();
     check_size([width.into(), height.into()], bytes, HDR_PIXELS_A_BYTE).map_err(|e| invalid(path, e))?;
     let picture = image::DynamicImage::from_decoder(decoder).map_err(|fault| invalid(path, fault))?;
     let pixels = picture.into_rgb32f().pixels().map(|p| Vec3::from_array(p.0)).collect();
-    finish(path, width as usize, height as usize, pixels)
+    Ok(LightPicture { width: width as usize, height: height as usize, pixels })
 }
 
 /// Refuses headers for which the decoder would take more memory than the file can fill: it allocates
@@ -99,7 +115,7 @@ fn check_headers(headers: &[exr::meta::header::Header], bytes: u64) -> Result<()
     Ok(())
 }
 
-fn read_exr(Source { path, file, bytes }: Source) -> Result<Environment, RenderError> {
+fn read_exr(Source { path, file, bytes }: Source) -> Result<LightPicture, RenderError> {
     use openexr::{ReadChannels, ReadLayers};
     struct Pixels {
         width: usize,
@@ -135,5 +151,6 @@ fn read_exr(Source { path, file, bytes }: Source) -> Result<Environment, RenderE
     let chunks = exr::block::read(file, false).map_err(fault)?;
     check_headers(chunks.headers(), bytes).map_err(|reason| invalid(path, reason))?;
     let pixels = read.from_chunks(chunks).map_err(fault)?.layer_data.channel_data.pixels;
-    finish(path, pixels.width, pixels.height, pixels.values)
+    let Pixels { width, height, values } = pixels;
+    Ok(LightPicture { width, height, pixels: values })
 }

@@ -54,20 +54,47 @@ pub struct Preview {
 /// The beauty of `frame` as it would be shown.
 #[must_use]
 pub fn tone_map(frame: &Frame, mapping: &ToneMapping) -> Preview {
+    let rgba = shown(frame, mapping, &[]).flat_map(|pixel| pixel.map(unit_byte)).collect();
+    Preview { width: frame.width, height: frame.height, rgba }
+}
+
+/// As [`tone_map`], over a picture of the frame's size in linear Rec. 709, which exposure and curve leave alone
+/// as they do [`Backdrop::Solid`]. Pixels that `behind` does not have are black.
+#[must_use]
+pub fn tone_map_over(frame: &Frame, mapping: &ToneMapping, behind: &[Vec3]) -> Preview {
+    let mapping = ToneMapping { backdrop: Backdrop::Solid(Vec3::ZERO), ..*mapping };
+    let rgba = shown(frame, &mapping, behind).flat_map(|pixel| pixel.map(unit_byte)).collect();
+    Preview { width: frame.width, height: frame.height, rgba }
+}
+
+/// As [`tone_map`], with sixteen bits a channel: red, green, blue, alpha, row by row from the upper left.
+#[must_use]
+pub fn tone_map_deep(frame: &Frame, mapping: &ToneMapping) -> Vec<u16> {
+    shown(frame, mapping, &[]).flat_map(|pixel| pixel.map(|v| (v * 65535.0 + 0.5) as u16)).collect()
+}
+
+/// Every pixel in sRGB with straight alpha, 0..1; `behind` stands in for a backdrop of one colour.
+fn shown<'a>(
+    frame: &'a Frame,
+    mapping: &'a ToneMapping,
+    behind: &'a [Vec3],
+) -> impl Iterator<Item = [f32; 4]> + 'a {
     let gain = mapping.exposure.exp2();
-    let mut rgba = Vec::with_capacity(frame.beauty.len() * 4);
-    for (&beauty, &alpha) in frame.beauty.iter().zip(&frame.alpha) {
+    let pixels = frame.beauty.iter().zip(&frame.alpha).enumerate();
+    pixels.map(move |(index, (&beauty, &alpha))| {
         // The curve is for what a surface looks like, so coverage is taken out first and put back after.
         let straight = if alpha > 0.0 { beauty / alpha } else { Vec3::ZERO };
         let mapped = mapping.curve.apply(straight * gain);
         let (color, alpha) = match mapping.backdrop {
             Backdrop::Transparent => (mapped, alpha),
-            Backdrop::Solid(backdrop) => (mapped * alpha + backdrop * (1.0 - alpha), 1.0),
+            Backdrop::Solid(solid) => {
+                let backdrop = behind.get(index).copied().unwrap_or(solid);
+                (mapped * alpha + backdrop * (1.0 - alpha), 1.0)
+            }
         };
-        rgba.extend(color.to_array().map(srgb_byte));
-        rgba.push(unit_byte(alpha));
-    }
-    Preview { width: frame.width, height: frame.height, rgba }
+        let [red, green, blue] = color.to_array().map(srgb);
+        [red, green, blue, alpha.clamp(0.0, 1.0)]
+    })
 }
 
 impl Preview {
@@ -114,9 +141,10 @@ fn neutral(mut color: Vec3) -> Vec3 {
     color.lerp(Vec3::splat(new_peak), pale)
 }
 
-fn srgb_byte(linear: f32) -> u8 {
+/// IEC 61966-2-1, brought into 0..1.
+fn srgb(linear: f32) -> f32 {
     let v = linear.clamp(0.0, 1.0);
-    unit_byte(if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 })
+    if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
 }
 
 fn unit_byte(v: f32) -> u8 {
@@ -172,6 +200,23 @@ mod tests {
         assert_eq!(shown(Vec3::ZERO, 0.785_958, solid), [128, 128, 128, 255]);
         let kept = ToneMapping { curve: Curve::Clip, ..Default::default() };
         assert_eq!(shown(Vec3::splat(0.25), 0.25, kept), [255, 255, 255, 64]);
+    }
+
+    #[test]
+    fn a_picture_behind_is_left_alone_and_sixteen_bits_agree_with_eight() {
+        let mapping = ToneMapping { exposure: 3.0, ..Default::default() };
+        let empty = frame(Vec3::ZERO, 0.0);
+        assert_eq!(tone_map_over(&empty, &mapping, &[Vec3::splat(0.215_861)]).rgba, [128, 128, 128, 255]);
+        assert_eq!(tone_map_over(&empty, &mapping, &[]).rgba, [0, 0, 0, 255]);
+        let solid = ToneMapping { backdrop: Backdrop::Solid(Vec3::new(0.1, 0.2, 0.3)), ..mapping };
+        for step in 0..100 {
+            let some = frame(Vec3::new(0.01, 0.02, 0.03) * step as f32, 0.01 * step as f32);
+            assert_eq!(tone_map(&some, &solid), tone_map_over(&some, &mapping, &[Vec3::new(0.1, 0.2, 0.3)]));
+            let deep = tone_map_deep(&some, &mapping);
+            for (deep, byte) in deep.iter().zip(tone_map(&some, &mapping).rgba) {
+                assert!((f64::from(*deep) / 257.0 - f64::from(byte)).abs() <= 0.51, "{deep} {byte}");
+            }
+        }
     }
 
     #[test]

@@ -93,7 +93,13 @@ pub fn sweep(
         return Err(refused);
     }
     let count = row.cells.len() as u32;
-    let layout = SheetLayout { cell: (size, size), columns: Some(count.max(1)), gap: GAP, labels: false };
+    let layout = SheetLayout {
+        cell: (size, size),
+        columns: Some(count.max(1)),
+        gap: GAP,
+        labels: false,
+        caption_lines: 0,
+    };
     let mapping = ToneMapping { backdrop: Backdrop::Solid(Vec3::splat(BACKDROP)), ..ToneMapping::default() };
     let Some(mut sheet) = ContactSheet::new(layout, count, [255; 3]) else { return Err(refused) };
     let settings =

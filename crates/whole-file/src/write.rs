@@ -51,6 +51,12 @@ impl WholeFile {
         Ok(WholeFile { temporary, registration, target })
     }
 
+    /// Where the bytes are until [`WholeFile::commit`], for another program that is to write them.
+    #[must_use]
+    pub fn temporary_path(&self) -> &Path {
+        self.temporary.path()
+    }
+
     /// Flushes the bytes to the disk and renames the file into place.
     ///
     /// # Errors

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 /// Every crate, low to high, with what it may know of the house. A new arrow is added here and in
 /// ARCHITECTURE.md, or not at all.
-const ARROWS: [(&str, &[&str]); 23] = [
+const ARROWS: [(&str, &[&str]); 26] = [
     ("cyhair", &[]),
     ("groom", &[]),
     ("whole-file", &[]),
@@ -20,6 +20,8 @@ const ARROWS: [(&str, &[&str]); 23] = [
     ("usd-layer", &[]),
     ("ogawa", &[]),
     ("gltf-bytes", &[]),
+    ("frame-view", &[]),
+    ("video-encode", &["whole-file"]),
     ("medulla-tables", &["fibre-scattering", "whole-file"]),
     ("fibre-material", &["fibre-scattering", "groom", "strict-yaml"]),
     ("fibre-verification", &["error-report", "fibre-scattering", "medulla-tables"]),
@@ -39,17 +41,20 @@ const ARROWS: [(&str, &[&str]); 23] = [
             "whole-file",
         ],
     ),
+    ("frame-comp", &["hair-render"]),
     (
         "turntable",
         &[
             "error-report",
             "fibre-material",
+            "frame-comp",
             "groom",
             "groom-formats",
             "groom-samples",
             "hair-render",
             "moving-mesh",
             "strict-yaml",
+            "video-encode",
             "whole-file",
         ],
     ),

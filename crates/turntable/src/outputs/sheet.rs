@@ -11,7 +11,7 @@ use crate::{Event, Step, StepKind, TurntableError, frame_file, stage};
 /// The layout `sheet` asks for, of frames as `render` makes them.
 pub(crate) fn layout(sheet: &Sheet, render: &Render) -> SheetLayout {
     let Sheet { columns, gap, labels, .. } = *sheet;
-    SheetLayout { cell: (render.width, render.height), columns, gap, labels }
+    SheetLayout { cell: (render.width, render.height), columns, gap, labels, caption_lines: 0 }
 }
 
 pub(super) fn wanted(variants: &[Variant], frames: &[Step]) -> Option<Wanted> {
