@@ -27,7 +27,10 @@ async function browser() {
   }
   const entry = modules && path.join(modules, "node_modules/@sparticuz/chromium/build/cjs/index.cjs");
   if (!entry || !existsSync(entry)) return null;
-  const { default: packed } = createRequire(import.meta.url)(entry);
+  // So it unpacks and uses the libraries it brings (NSS), as it does where it was made for.
+  process.env.AWS_EXECUTION_ENV ??= "AWS_Lambda_nodejs22.x";
+  const loaded = createRequire(import.meta.url)(entry);
+  const packed = loaded.default ?? loaded;
   packed.setGraphicsMode = false;
   return { program: await packed.executablePath(), flags: ["--headless=shell", "--no-zygote", "--in-process-gpu"] };
 }

@@ -16,8 +16,11 @@ fn picture(width: u32, height: u32) -> Picture {
     Picture::from_rgba(width, height, &rgba).unwrap()
 }
 
-/// The pixels a terminal would show for half blocks, upper and lower of every character.
-fn shown(text: &str) -> Vec<Vec<([u8; 3], Option<[u8; 3]>)>> {
+/// A character of half blocks: its upper and its lower pixel.
+type Cell = ([u8; 3], Option<[u8; 3]>);
+
+/// The pixels a terminal would show for half blocks.
+fn shown(text: &str) -> Vec<Vec<Cell>> {
     let mut lines = vec![Vec::new()];
     let (mut front, mut back) = ([0; 3], None);
     let mut rest = text;

@@ -148,7 +148,7 @@ mod tests {
             last = strip.height;
             let lit = lit(&strip);
             assert_eq!(lit.iter().any(|&on| on), width >= 16, "{width}");
-            let edge = |i: usize| i % width as usize == 0 || i / width as usize == 0;
+            let edge = |i: usize| i.is_multiple_of(width as usize) || i < width as usize;
             assert!(!(0..lit.len()).any(|i| lit[i] && edge(i)), "{width}");
         }
         assert_eq!(Caption::for_width(512).height(0), 0);

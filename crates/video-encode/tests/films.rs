@@ -1,5 +1,5 @@
 //! Films decoded again: what was piped in comes out, under the tags that are true.
-#![allow(clippy::unwrap_used, clippy::panic)]
+#![allow(clippy::unwrap_used, clippy::panic, clippy::explicit_write)]
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -190,7 +190,7 @@ fn ffmpegs_own_words_are_passed_on() {
     let grey = vec![128; 640 * 480 * 4];
     // The pipe holds some of it, whatever ffmpeg does; the end is told at the latest when the film is finished.
     let error = (0..10).find_map(|_| film.push(Picture::Rgba8(&grey)).err());
-    let error = error.map_or_else(|| film.finish().unwrap_err(), |error| error);
+    let error = error.unwrap_or_else(|| film.finish().unwrap_err());
     let VideoError::Ffmpeg { words, status, .. } = &error else { panic!("{error}") };
     assert_eq!(words, "Unknown encoder libx264");
     assert!(status.contains('8'), "{status}");
