@@ -16,10 +16,12 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! Temporary names are `.NAME.PID.RANDOM.tmp`. A process that was killed leaves them behind;
-//! [`clear_stale`] removes those of one target, [`abandon_all`] those of this process (for Ctrl-C).
+//! Temporary names are `.NAME.HOST.PID.RANDOM.tmp`: several machines may write to a folder that they share. A
+//! process that was killed leaves them behind; [`clear_stale`] removes those of one target, [`abandon_all`] those
+//! of this process (for Ctrl-C).
 
 mod error;
+mod host;
 mod live;
 mod stale;
 mod write;

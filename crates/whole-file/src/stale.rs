@@ -1,12 +1,20 @@
 //! Temporary files of processes that were killed.
 
-use std::fs;
+use std::fs::{self, DirEntry};
 use std::path::Path;
+use std::time::{Duration, SystemTime};
+
+use crate::host::host;
+
+/// A file nobody wrote to for so long is nobody's, whichever machine began it: no clock of a farm is off by a day.
+const LONG_AGO: Duration = Duration::from_secs(24 * 60 * 60);
 
 /// Removes temporary files that killed processes left beside `path`; returns how many.
 ///
-/// A file counts as stale when it carries `path`'s temporary name and its process is gone. Where that
-/// cannot be told (no `/proc`), nothing is removed.
+/// A file counts as stale when it carries `path`'s temporary name and its process, on this machine, is gone. Of a
+/// process on another machine, which may share the folder, nothing is known here: its files are stale when nobody
+/// wrote to them for a day, and so are those of this machine where it cannot be told whether a process lives (no
+/// `/proc`).
 pub fn clear_stale(path: impl AsRef<Path>) -> usize {
     // As when it was created: beside the file a link points at.
     let path = path.as_ref().canonicalize().unwrap_or_else(|_| path.as_ref().to_owned());
@@ -14,46 +22,92 @@ pub fn clear_stale(path: impl AsRef<Path>) -> usize {
     let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
     let prefix = format!(".{}.", name.to_string_lossy());
     let Ok(entries) = fs::read_dir(folder) else { return 0 };
-    entries
-        .flatten()
-        .filter(|entry| process_of(&entry.file_name().to_string_lossy(), &prefix).is_some_and(is_gone))
-        .filter(|entry| fs::remove_file(entry.path()).is_ok())
-        .count()
+    let stale = |entry: &DirEntry| {
+        Owner::of(&entry.file_name().to_string_lossy(), &prefix)
+            .is_some_and(|owner| owner.is_gone().unwrap_or_else(|| is_old(entry)))
+    };
+    entries.flatten().filter(stale).filter(|entry| fs::remove_file(entry.path()).is_ok()).count()
 }
 
-/// The process id in `.NAME.PID.RANDOM.tmp`.
-fn process_of(file_name: &str, prefix: &str) -> Option<u32> {
-    let (pid, random) = file_name.strip_prefix(prefix)?.strip_suffix(".tmp")?.split_once('.')?;
-    if random.is_empty() || random.contains('.') { None } else { pid.parse().ok() }
+/// Who began a temporary file.
+#[derive(Debug, PartialEq, Eq)]
+struct Owner<'a> {
+    /// `None` in names of earlier versions, `.NAME.PID.RANDOM.tmp`.
+    host: Option<&'a str>,
+    process: u32,
 }
 
-fn is_gone(process: u32) -> bool {
-    Path::new("/proc/self").exists() && !Path::new("/proc").join(process.to_string()).exists()
+impl<'a> Owner<'a> {
+    /// As `.NAME.HOST.PID.RANDOM.tmp` says it; `None` for all other names.
+    fn of(file_name: &'a str, prefix: &str) -> Option<Self> {
+        let words: Vec<&str> = file_name.strip_prefix(prefix)?.strip_suffix(".tmp")?.split('.').collect();
+        let (host, process, random) = match words[..] {
+            [host, process, random] => (Some(host), process, random),
+            [process, random] => (None, process, random),
+            _ => return None,
+        };
+        let process = process.parse().ok().filter(|_| !random.is_empty())?;
+        Some(Owner { host, process })
+    }
+
+    /// Whether its process is gone; `None` where that cannot be told.
+    fn is_gone(&self) -> Option<bool> {
+        let here = self.host.is_some() && self.host == host();
+        let knows = here && Path::new("/proc/self").exists();
+        knows.then(|| !Path::new("/proc").join(self.process.to_string()).exists())
+    }
+}
+
+fn is_old(entry: &DirEntry) -> bool {
+    let written = entry.metadata().and_then(|found| found.modified());
+    let age = written.ok().and_then(|written| SystemTime::now().duration_since(written).ok());
+    age.is_some_and(|age| age > LONG_AGO)
 }
 
 #[cfg(test)]
 mod tests {
+    use std::path::PathBuf;
+
     use super::*;
+
+    fn put(path: &PathBuf, age: Duration) {
+        fs::write(path, b"x").unwrap();
+        let file = fs::File::options().write(true).open(path).unwrap();
+        file.set_modified(SystemTime::now() - age).unwrap();
+    }
 
     #[test]
     fn only_the_dead_processes_files_go() {
         let folder = tempfile::tempdir().unwrap();
-        let target = folder.path().join("frame.exr");
-        let dead = folder.path().join(".frame.exr.4294967295.aBc123.tmp");
+        let at = |name: String| folder.path().join(name);
+        let Some(host) = host() else { return };
+        let me = std::process::id();
+        let day = LONG_AGO + Duration::from_secs(60);
         let kept = [
-            folder.path().join(format!(".frame.exr.{}.aBc123.tmp", std::process::id())),
-            folder.path().join(".frame.exr.txt"),
-            folder.path().join(".frame.exr.tmp"),
-            folder.path().join(".other.exr.4294967295.aBc123.tmp"),
+            // This process's, however old; other hosts' and nobody's of late.
+            (format!(".frame.exr.{host}.{me}.aBc123.tmp"), day),
+            (".frame.exr.other-host.4294967295.aBc123.tmp".into(), Duration::ZERO),
+            (".frame.exr.other-host.1.aBc123.tmp".into(), LONG_AGO - Duration::from_secs(60)),
+            (".frame.exr.4294967295.aBc123.tmp".into(), Duration::ZERO),
+            // Others' names.
+            (".frame.exr.txt".into(), day),
+            (".frame.exr.tmp".into(), day),
+            (format!(".other.exr.{host}.4294967295.aBc123.tmp"), day),
+            (".frame.exr.a.b.4294967295.aBc123.tmp".into(), day),
         ];
-        for path in kept.iter().chain([&dead]) {
-            fs::write(path, b"x").unwrap();
+        let gone = [
+            (format!(".frame.exr.{host}.4294967295.aBc123.tmp"), Duration::ZERO),
+            (".frame.exr.other-host.4294967295.xYz123.tmp".into(), day),
+            (".frame.exr.4294967295.xYz123.tmp".into(), day),
+        ];
+        for (name, age) in kept.iter().chain(&gone) {
+            put(&at(name.clone()), *age);
         }
-        let cleared = clear_stale(&target);
+        let cleared = clear_stale(at("frame.exr".into()));
+        assert!(kept.iter().all(|(name, _)| at(name.clone()).exists()));
         if Path::new("/proc/self").exists() {
-            assert_eq!(cleared, 1);
-            assert!(!dead.exists());
+            assert_eq!(cleared, 3);
+            assert!(gone.iter().all(|(name, _)| !at(name.clone()).exists()));
         }
-        assert!(kept.iter().all(|path| path.exists()));
     }
 }

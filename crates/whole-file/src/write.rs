@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 
 use tempfile::{Builder, NamedTempFile};
 
+use crate::host::host;
 use crate::{WholeFileError, live};
 
 /// A file being written under a temporary name beside its target.
@@ -40,7 +41,8 @@ impl WholeFile {
         if target.metadata().is_ok_and(|old| !old.is_file()) {
             return Err(fault("replace what is no file", io::Error::from(io::ErrorKind::InvalidInput)));
         }
-        let prefix = format!(".{}.{}.", name.to_string_lossy(), std::process::id());
+        let host = host().map_or_else(String::new, |host| format!("{host}."));
+        let prefix = format!(".{}.{host}{}.", name.to_string_lossy(), std::process::id());
         let mut builder = Builder::new();
         builder.prefix(&prefix).suffix(".tmp");
         #[cfg(unix)]
@@ -180,6 +182,42 @@ mod tests {
         for path in paths {
             let error = WholeFile::create(&path).unwrap_err();
             assert!(error.to_string().contains(&*path.to_string_lossy()), "{error}");
+        }
+    }
+
+    #[test]
+    fn the_temporary_name_says_whose_it_is() {
+        let folder = tempfile::tempdir().unwrap();
+        let _file = WholeFile::create(folder.path().join("a.exr")).unwrap();
+        let (name, process) = (names(folder.path()).remove(0), std::process::id());
+        let host = host().map_or_else(String::new, |host| format!("{host}."));
+        assert!(name.starts_with(&format!(".a.exr.{host}{process}.")) && name.ends_with(".tmp"), "{name}");
+    }
+
+    /// What is written in bits and pieces arrives whole; a writer may take less than it is given.
+    #[test]
+    fn short_writes_add_up() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("a.bin");
+        let bytes: Vec<u8> = (0..100_000u32).map(|i| ((i * 31) >> 3) as u8).collect();
+        let mut file = io::BufWriter::with_capacity(7, WholeFile::create(&path).unwrap());
+        for (i, piece) in bytes.chunks(13).enumerate() {
+            file.write_all(piece).unwrap();
+            if i % 100 == 0 {
+                file.flush().unwrap();
+            }
+        }
+        file.into_inner().unwrap().commit().unwrap();
+        assert_eq!(fs::read(&path).unwrap(), bytes);
+    }
+
+    /// Not even root may write there.
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn folders_that_cannot_be_written_to_are_named() {
+        for path in ["/sys/frame.exr", "/proc/self/frame.exr"] {
+            let error = WholeFile::create(path).unwrap_err().to_string();
+            assert!(error.contains(path) && error.contains("could not create a temporary file"), "{error}");
         }
     }
 

@@ -247,9 +247,11 @@ fn a_full_disk_is_told() {
 #[test]
 fn what_a_killed_run_left_is_cleared_away() {
     let folder = Folder::new();
-    // No process has this number.
-    for name in [".out.gltf.4294967295.a1.tmp", ".out.bin.4294967295.a1.tmp"] {
+    let days_ago = SystemTime::now() - Duration::from_secs(3 * 24 * 60 * 60);
+    for name in [".out.gltf.elsewhere.41.a1.tmp", ".out.bin.elsewhere.41.a1.tmp"] {
         std::fs::write(folder.path(name), "half").unwrap();
+        let file = std::fs::File::options().write(true).open(folder.path(name)).unwrap();
+        file.set_modified(days_ago).unwrap();
     }
     folder.good(&["in.txt", "out.gltf"]);
     assert_eq!(folder.names(), ["in.txt", "out.bin", "out.gltf"]);
