@@ -12,7 +12,9 @@
 //! (positions at two or more times, or velocities and accelerations), a camera as a [`MovingCamera`]. A scene in
 //! which nothing moves is built and traced as if there were no shutter.
 //!
-//! The same scene, camera and settings give the same bits, whatever the number of threads.
+//! The same scene, camera and settings give the same bits, whatever the number of threads. A long render goes in
+//! passes ([`render_from`]): after each it can be looked at ([`SoFar`]) or written down ([`Checkpoint`], a picture
+//! like any other), and one that was stopped and taken up again has the bits of one that was not.
 //!
 //! ```
 //! use glam::Vec3;

@@ -3,6 +3,7 @@
 use std::io::{Read, Write};
 use std::path::{Path, PathBuf};
 use std::process::{Command, Output, Stdio};
+use std::time::{Duration, SystemTime};
 
 use end_to_end_tests::{data_file, program, run};
 use groom_formats::{Format, ReadOptions, WriteOptions};

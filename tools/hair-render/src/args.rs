@@ -9,12 +9,15 @@ use fibre_material::Material;
 use glam::{DVec3, Vec3};
 use hair_render::{Aov, AovSet};
 
+use crate::farm_args::FarmArgs;
 use crate::motion_args::MotionArgs;
 
 /// Path-traces a groom to a multi-layer EXR: beauty, alpha and a pass for every lobe.
 ///
 /// Prints the estimated relative error and the seconds on stderr. World space is Y up, in metres;
-/// angles are in degrees. Exit codes: 0 done, 2 could not, 130 stopped by Ctrl-C (no file is left).
+/// angles are in degrees. Asked to end (Ctrl-C, SIGTERM), it keeps the samples so far in .NAME.part.exr, and the
+/// same command goes on from there: the picture has the bits of one that was never stopped. Exit codes: 0 done,
+/// 2 could not, 75 stopped, try again, 130 ended at once by a second Ctrl-C.
 #[derive(Debug, Parser)]
 #[command(
     version,
@@ -57,6 +60,8 @@ pub struct Args {
     pub input: Input,
     #[command(flatten)]
     pub motion: MotionArgs,
+    #[command(flatten)]
+    pub farm: FarmArgs,
 
     /// Write the built-in studio environment (.exr) and do nothing else
     #[arg(long, value_name = "FILE", conflicts_with_all = ["groom", "output"])]
@@ -126,6 +131,9 @@ pub struct View {
     /// Pixels down
     #[arg(long, default_value_t = 512)]
     pub height: u32,
+    /// Only this part of the picture, as shares of its width and height from the upper left corner
+    #[arg(long, value_name = "X0,X1,Y0,Y1")]
+    pub crop: Option<Numbers<4>>,
     /// Degrees about the up axis: 0 stands on the +Z side, 90 on the +X side
     #[arg(long, default_value_t = 0.0, allow_hyphen_values = true)]
     pub azimuth: f64,

@@ -2,12 +2,16 @@
 
 mod args;
 mod color_match;
+mod digest;
+mod farm_args;
+mod keeping;
 mod meshes;
 mod motion_args;
 mod moving_groom;
 mod picture;
 mod presets;
 mod scene;
+mod watch;
 
 use std::process::ExitCode;
 

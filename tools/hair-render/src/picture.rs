@@ -2,19 +2,23 @@
 
 use std::io::Write;
 use std::path::Path;
+use std::time::Instant;
 
-use anyhow::{Context, Result};
-use command_line::{Bar, Outcome};
+use anyhow::{Context, Result, ensure};
+use command_line::{Bar, Meter, Outcome, ProgressStyle};
 use glam::{DVec3, Vec3};
 use hair_render::{
-    Aov, AovSet, Backdrop, Background, Camera, ColorMatch, Frame, FrameReport, LeftOut, Metadata,
-    MovingCamera, Precision, Progress, RenderError, RenderSettings, Scene, SceneDescription, TableUse,
-    ToneMapping, check_output, tone_map,
+    Aov, AovSet, Backdrop, Background, Camera, Checkpoint, ColorMatch, Crop, Frame, FrameReport, LeftOut,
+    Metadata, Precision, Progress, RenderSettings, Rendered, Scene, SceneDescription, TableUse, ToneMapping,
+    check_output, tone_map,
 };
+use whole_file::clear_stale;
 
-use crate::args::Args;
+use crate::args::{Args, Numbers};
+use crate::keeping::part_of;
 use crate::scene::{Described, Moment};
-use crate::{color_match, scene};
+use crate::watch::Watch;
+use crate::{color_match, digest, keeping, scene};
 
 /// Shows tiles on a bar and stops on Ctrl-C.
 pub struct OnBar(pub Bar);
@@ -39,16 +43,40 @@ pub fn write_studio(path: &Path) -> Result<Outcome> {
 
 /// Renders what the arguments ask for.
 pub fn render(args: &Args) -> Result<Outcome> {
+    let start = Instant::now();
+    // From here on a signal is taken between two pixels, and leaves a checkpoint.
+    command_line::on_interrupt_ask();
+    command_line::on_snapshot_ask();
+    let meter = Meter::new(args.farm.progress, "rendering");
+    let outcome = rendered(args, start, &meter);
+    meter.finish();
+    if let Err(fault) = &outcome {
+        meter.fail(&format!("{fault:#}"));
+    }
+    outcome
+}
+
+fn rendered(args: &Args, start: Instant, meter: &Meter) -> Result<Outcome> {
     let output = args.output.as_deref().context("no output given")?;
     let mut settings = settings(args);
     settings.check()?;
     check_output(output, "exr")?;
     args.png.as_deref().map_or(Ok(()), |png| check_output(png, "png"))?;
+    let speaks = args.farm.progress != ProgressStyle::Bar;
+    ensure!(!(args.json && speaks), "--json and --progress would both write to stdout");
     let Described { mut description, words, moment } = scene::describe(args)?;
     words.iter().for_each(|word| say(&format!("warning: {word}")));
     let target = args.view.look_at.map_or_else(|| middle(&description), |at| at.vector());
     description.lights = scene::lights(&args.light, target)?;
     settings.aovs = args.quality.aovs.unwrap_or_else(|| usual_passes(&description));
+    let digest = digest::of(args, &description, &settings)?;
+    clear_stale(output);
+    clear_stale(part_of(output));
+    if args.farm.skip_existing
+        && let Some(frame) = keeping::existing(output, &digest)
+    {
+        return skip(args, output, &frame);
+    }
     let picked = if args.fibre.match_color { Some(color_match::picked(&description.hair)?) } else { None };
     if args.explain {
         leave_out(&hair_render::explain(&description, &settings));
@@ -60,20 +88,48 @@ pub fn render(args: &Args) -> Result<Outcome> {
     if args.explain {
         leave_out(&hair_render::explain_camera(&camera, moves));
     }
-    command_line::on_interrupt_ask();
     let color_match = match picked {
         Some(color) => match color_match::run(color, &mut scene, &camera.at(0.5), &settings)? {
             Some(found) => Some(found),
-            None => return Ok(Outcome::Interrupted),
+            None => return Ok(Outcome::TryAgain),
         },
         None => None,
     };
-    let Some(frame) = trace(&scene, &camera, &settings)? else { return Ok(Outcome::Interrupted) };
-    write(args, output, camera.at(0.5), moment, &frame)?;
+    let begun = if args.farm.no_resume { None } else { keeping::taken_up(output, &digest) };
+    let told = |blurred| metadata(args, camera.at(0.5), moment, blurred, &digest);
+    let from = begun.as_ref().map_or(0, Checkpoint::spp);
+    let watch = Watch::new(&args.farm, output, told(moves || camera.moves()), meter, (start, from));
+    let frame = match hair_render::render_from(&scene, &camera, &settings, &digest, begun, &watch)? {
+        Rendered::Done(frame) => frame,
+        Rendered::Stopped(checkpoint) => return stopped(&checkpoint, output),
+    };
+    meter.finish();
+    frame.write_exr(output, &told(frame.report.motion.is_some()))?;
+    write_png(args, &frame)?;
+    keeping::clear(output)?;
+    watch.clear_snapshot();
     let blur = frame.report.motion.is_some().then(|| Blurred::of(&scene));
     let moment = (moment.frame.is_some() || blur.is_some()).then_some(moment);
-    report(args, &frame, &scene, Extra { color_match, moment, blur }, output)?;
+    let tables = scene.medulla_tables().cloned().collect();
+    report(args, &frame, Extra { color_match, tables, moment, blur, skipped: false }, output)?;
     Ok(Outcome::Good)
+}
+
+/// Says that the output is there, and makes what goes with it.
+fn skip(args: &Args, output: &Path, frame: &Frame) -> Result<Outcome> {
+    say(&format!("{}: up to date, nothing to do", output.display()));
+    write_png(args, frame)?;
+    keeping::clear(output)?;
+    report(args, frame, Extra { skipped: true, ..Extra::default() }, output)?;
+    Ok(Outcome::Good)
+}
+
+/// Keeps what was rendered, so that the same command goes on from there.
+fn stopped(checkpoint: &Checkpoint, output: &Path) -> Result<Outcome> {
+    let (spp, asked, part) = (checkpoint.spp(), checkpoint.spp_asked(), part_of(output));
+    checkpoint.write(&part)?;
+    say(&format!("stopped at {spp} of {asked} samples a pixel; kept in {}", part.display()));
+    Ok(Outcome::TryAgain)
 }
 
 fn leave_out(left_out: &[LeftOut]) {
@@ -105,30 +161,21 @@ fn usual_passes(description: &SceneDescription) -> AovSet {
     [Aov::R, Aov::Tt, Aov::Trt, Aov::Residual, Aov::Surface].into_iter().chain(scattered).collect()
 }
 
-/// The frame; `None` when Ctrl-C stopped it.
-fn trace(scene: &Scene, camera: &MovingCamera, settings: &RenderSettings) -> Result<Option<Frame>> {
-    let bar = OnBar(command_line::progress_bar(1, "rendering"));
-    let result = hair_render::render_moving(scene, camera, settings, &bar);
-    bar.0.finish();
-    match result {
-        Err(RenderError::Cancelled) => Ok(None),
-        frame => Ok(Some(frame?)),
-    }
-}
-
-fn write(args: &Args, output: &Path, camera: Camera, moment: Moment, frame: &Frame) -> Result<()> {
-    let blurred = frame.report.motion.is_some();
+/// What is written into the picture beside its pixels.
+fn metadata(args: &Args, camera: Camera, moment: Moment, blurred: bool, digest: &str) -> Metadata {
     let named = moment.frame.map(|number| ("frame".to_owned(), number.to_string()));
-    let metadata = Metadata {
+    Metadata {
         command: command_line::words(),
+        digest: digest.to_owned(),
         camera: Some(camera),
         precision: if args.quality.half { Precision::Half } else { Precision::Float },
         frame_rate: (blurred || named.is_some()).then_some(moment.frame_rate),
         exposure_seconds: blurred.then_some(moment.exposure_seconds),
         extra: named.into_iter().collect(),
-        ..Metadata::default()
-    };
-    frame.write_exr(output, &metadata)?;
+    }
+}
+
+fn write_png(args: &Args, frame: &Frame) -> Result<()> {
     if let Some(png) = &args.png {
         let backdrop = Backdrop::Solid(Vec3::splat(0.18));
         let mapping = ToneMapping { exposure: args.exposure, backdrop, ..ToneMapping::default() };
@@ -147,6 +194,7 @@ fn settings(args: &Args) -> RenderSettings {
         max_bounces: quality.max_bounces,
         roulette_start: quality.roulette_start,
         threads: quality.threads,
+        crop: args.view.crop.map(|Numbers([x0, x1, y0, y1])| Crop { x0, x1, y0, y1 }),
         background: if args.light.background { Background::Visible } else { Background::Transparent },
         ..RenderSettings::default()
     }
@@ -170,13 +218,19 @@ struct Report<'a> {
     moment: Option<Moment>,
     #[serde(skip_serializing_if = "Option::is_none")]
     blur: Option<Blurred>,
+    /// Whether the picture was there already, and these are the figures of then.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    skipped: bool,
 }
 
 /// What is told beside the frame.
+#[derive(Default)]
 struct Extra {
     color_match: Option<ColorMatch>,
+    tables: Vec<TableUse>,
     moment: Option<Moment>,
     blur: Option<Blurred>,
+    skipped: bool,
 }
 
 /// What the motion of a scene costs.
@@ -195,8 +249,8 @@ impl Blurred {
     }
 }
 
-fn report(args: &Args, frame: &Frame, scene: &Scene, extra: Extra, output: &Path) -> Result<()> {
-    let Extra { color_match, moment, blur } = extra;
+fn report(args: &Args, frame: &Frame, extra: Extra, output: &Path) -> Result<()> {
+    let Extra { color_match, tables: medulla_tables, moment, blur, skipped } = extra;
     let report = &frame.report;
     let error = match report.relative_error {
         Some(error) => format!("estimated relative error {:.2} %", 100.0 * error),
@@ -210,9 +264,10 @@ fn report(args: &Args, frame: &Frame, scene: &Scene, extra: Extra, output: &Path
         let mut json = serde_json::to_string_pretty(&Report {
             frame: report,
             color_match,
-            medulla_tables: scene.medulla_tables().cloned().collect(),
+            medulla_tables,
             moment,
             blur,
+            skipped,
         })?;
         json.push('\n');
         std::io::stdout().lock().write_all(json.as_bytes())?;

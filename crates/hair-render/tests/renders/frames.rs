@@ -105,10 +105,22 @@ fn a_frame_is_read_back_as_it_was_written() {
     assert_eq!(other("seconds"), AttributeValue::F64(frame.report.seconds));
     assert_eq!(other("relativeError"), AttributeValue::F64(frame.report.relative_error.unwrap()));
     assert_eq!(other("colorInteropID"), AttributeValue::Text(Text::from("lin_rec709_scene")));
-    assert!(attributes.world_to_camera.is_some() && attributes.software_name.is_some());
+    assert!(attributes.world_to_camera.is_some() && attributes.world_to_normalized_device.is_some());
+    assert!(attributes.software_name.is_some());
     assert!(image.attributes.chromaticities.is_some());
 
+    let (back, header) = Frame::read_exr(&path).unwrap();
+    assert_eq!(back, frame);
+    assert_eq!(FrameHeader::read(&path).unwrap(), header);
+    assert_eq!((header.digest.as_str(), header.spp, header.seed), ("abc123", 6, 0));
+    assert_eq!((header.command, header.extra), (metadata.command.clone(), metadata.extra.clone()));
+    assert_eq!((header.relative_error, header.threads), (frame.report.relative_error, frame.report.threads));
+
     frame.write_exr(&path, &Metadata { precision: Precision::Half, ..metadata }).unwrap();
+    let half = Frame::read_exr(&path).unwrap().0;
+    for (found, expected) in half.beauty.iter().zip(&frame.beauty) {
+        assert!((*found - *expected).abs().max_element() <= 5e-4 * expected.max_element() + 1e-6);
+    }
     assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1, "only the finished file is there");
     let missing = folder.path().join("no/such/folder.exr");
     assert!(matches!(frame.write_exr(&missing, &Metadata::default()), Err(RenderError::Io { .. })));
@@ -148,7 +160,25 @@ fn pure_noise_comes_back_to_the_bit() {
             }
         }
         assert_eq!(channel("A"), frame.alpha.iter().map(|a| a.to_bits()).collect::<Vec<_>>());
+        let back = Frame::read_exr(&path).unwrap().0;
+        assert!(back.beauty == frame.beauty && back.alpha == frame.alpha && back.passes == frame.passes);
     }
+}
+
+/// What was blurred says so, and is read back.
+#[test]
+fn the_motion_of_a_picture_is_read_back() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.exr");
+    let groom = tuft(20, 0.03);
+    let scene = scene(vec![spinning(groom, blond(), 0.4, 3)], Some(white()), vec![]);
+    let frame = shoot(&scene, &front(&scene), &settings(9, 3));
+    let metadata = Metadata { frame_rate: Some(23.976), exposure_seconds: Some(0.02), ..Metadata::default() };
+    frame.write_exr(&path, &metadata).unwrap();
+    let (back, header) = Frame::read_exr(&path).unwrap();
+    assert!(back.report.motion.is_some());
+    assert_eq!(back, frame);
+    assert!((header.frame_rate.unwrap() - 23.976).abs() < 1e-3);
 }
 
 #[test]

@@ -1,7 +1,6 @@
 //! Exit codes, streams, and what it leaves on the disk.
 
-use std::io::{BufRead, BufReader};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use crate::support::*;
 
@@ -66,6 +65,10 @@ fn what_cannot_be_written_is_refused_before_rendering() {
         (&["-o", "a.exr", "--env-intensity=-1"], "--env-intensity"),
         (&["-o", "a.exr", "--env-rotate", "inf"], "--env-rotate"),
         (&["-o", "a.exr", "--distance=-2"], "distance"),
+        (&["-o", "a.exr", "--crop", "0.5,0.2,0,1"], "crop"),
+        (&["-o", "a.exr", "--time-limit", "0"], "--time-limit"),
+        (&["-o", "a.exr", "--checkpoint-every", "5"], "--checkpoint-every"),
+        (&["-o", "a.exr", "--json", "--progress", "alf"], "stdout"),
         (&["-o", "a.exr", "--no-such-flag"], "--no-such-flag"),
         (&["--png", "a.png"], "--output"),
     ] {
@@ -75,20 +78,6 @@ fn what_cannot_be_written_is_refused_before_rendering() {
         assert!(words.contains(says) && refused.stdout.is_empty(), "{output:?}: {words}");
         assert!(names(&folder).is_empty(), "{output:?}");
     }
-}
-
-#[cfg(unix)]
-#[test]
-fn ctrl_c_leaves_nothing_behind() {
-    let folder = folder("interrupted");
-    let arguments = [&FOREVER[..], &["-o", "a.exr", "--explain"]].concat();
-    let mut child = command(&folder, &arguments).stderr(Stdio::piped()).spawn().unwrap();
-    // The first words come after the handler stands.
-    let mut words = BufReader::new(child.stderr.take().unwrap());
-    words.read_line(&mut String::new()).unwrap();
-    assert!(Command::new("kill").args(["-INT", &child.id().to_string()]).status().unwrap().success());
-    assert_eq!(child.wait().unwrap().code(), Some(130));
-    assert!(names(&folder).is_empty());
 }
 
 #[test]

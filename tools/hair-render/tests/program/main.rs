@@ -3,5 +3,6 @@
 #![allow(clippy::unwrap_used)] // tests fail by panicking
 
 mod command;
+mod farm;
 mod motion;
 mod support;

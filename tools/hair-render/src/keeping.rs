@@ -1,0 +1,91 @@
+//! What is kept of a render that is not finished, and where.
+
+use std::ffi::OsString;
+use std::path::{Path, PathBuf};
+
+use anyhow::Result;
+use hair_render::{Checkpoint, Frame, FrameHeader};
+
+use crate::picture::say;
+
+/// A hidden file beside the output, `.NAME.part.exr`.
+pub fn part_of(output: &Path) -> PathBuf {
+    beside(output, ".", ".part.exr")
+}
+
+/// `NAME.snapshot.exr` beside the output.
+pub fn snapshot_of(output: &Path) -> PathBuf {
+    beside(output, "", ".snapshot.exr")
+}
+
+fn beside(output: &Path, before: &str, after: &str) -> PathBuf {
+    let mut name = OsString::from(before);
+    name.push(output.file_stem().unwrap_or_default());
+    name.push(after);
+    output.with_file_name(name)
+}
+
+/// The checkpoint beside the output, if there is one of this picture. Another picture's, or a broken one, is told
+/// and left out: it is written over in time.
+pub fn taken_up(output: &Path, digest: &str) -> Option<Checkpoint> {
+    let path = part_of(output);
+    if !path.exists() {
+        return None;
+    }
+    match Checkpoint::read(&path) {
+        Ok(found) if found.digest() == digest => {
+            let (spp, asked) = (found.spp(), found.spp_asked());
+            say(&format!("{}: going on at {spp} of {asked} samples a pixel", path.display()));
+            Some(found)
+        }
+        Ok(_) => {
+            say(&format!("{}: of another picture, beginning anew", path.display()));
+            None
+        }
+        Err(fault) => {
+            say(&format!("warning: {fault}: beginning anew"));
+            None
+        }
+    }
+}
+
+/// The output, if it is whole and has this digest.
+pub fn existing(output: &Path, digest: &str) -> Option<Frame> {
+    let header = FrameHeader::read(output).ok()?;
+    if header.digest != digest {
+        return None;
+    }
+    Frame::read_exr(output).ok().map(|(frame, _)| frame)
+}
+
+/// Keeps a checkpoint, or says why it could not: a full disk is no reason to lose what is being rendered.
+pub fn keep(checkpoint: &Checkpoint, output: &Path) -> bool {
+    let written = checkpoint.write(&part_of(output));
+    if let Err(fault) = &written {
+        say(&format!("warning: {fault}: going on without a checkpoint"));
+    }
+    written.is_ok()
+}
+
+/// Removes what a finished picture needs no more.
+pub fn clear(output: &Path) -> Result<()> {
+    let part = part_of(output);
+    match std::fs::remove_file(&part) {
+        Err(fault) if fault.kind() != std::io::ErrorKind::NotFound => {
+            Err(anyhow::Error::from(fault).context(part.display().to_string()))
+        }
+        _ => Ok(()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_kept_lies_beside_the_output() {
+        let output = Path::new("out/frame.0001.exr");
+        assert_eq!(part_of(output), Path::new("out/.frame.0001.part.exr"));
+        assert_eq!(snapshot_of(output), Path::new("out/frame.0001.snapshot.exr"));
+    }
+}

@@ -1,0 +1,101 @@
+//! Who watches over a render: tells how far it is, keeps it, shows it, and stops it.
+
+use std::path::{Path, PathBuf};
+use std::sync::Mutex;
+use std::time::{Duration, Instant};
+
+use command_line::Meter;
+use hair_render::{Metadata, Next, Progress, SoFar};
+
+use crate::farm_args::{Every, FarmArgs};
+use crate::keeping;
+use crate::picture::say;
+
+/// The eyes on one render.
+pub struct Watch<'a> {
+    args: &'a FarmArgs,
+    output: &'a Path,
+    metadata: Metadata,
+    meter: &'a Meter,
+    /// When the time is up.
+    end: Option<Instant>,
+    last: Mutex<Last>,
+}
+
+/// When things were done last.
+struct Last {
+    kept: Instant,
+    kept_spp: u32,
+    shown: Instant,
+    /// A snapshot that was written.
+    snapshot: Option<PathBuf>,
+}
+
+impl<'a> Watch<'a> {
+    /// Over the render of `output`, which goes on at `spp` samples a pixel; the program began at `start`.
+    pub fn new(
+        args: &'a FarmArgs,
+        output: &'a Path,
+        metadata: Metadata,
+        meter: &'a Meter,
+        (start, spp): (Instant, u32),
+    ) -> Self {
+        let now = Instant::now();
+        let last = Last { kept: now, kept_spp: spp, shown: now, snapshot: None };
+        let end = args.time_limit.and_then(|limit| start.checked_add(limit));
+        Watch { args, output, metadata, meter, end, last: Mutex::new(last) }
+    }
+
+    /// Removes the snapshot, once the picture itself is there.
+    pub fn clear_snapshot(&self) {
+        if let Ok(last) = self.last.lock()
+            && let Some(path) = &last.snapshot
+        {
+            // What is gone already is as good as removed.
+            let _ = std::fs::remove_file(path);
+        }
+    }
+
+    fn keep_if_due(&self, last: &mut Last, so_far: &SoFar<'_>) {
+        let due = match self.args.checkpoint_every {
+            Every::Time(time) => last.kept.elapsed() >= time,
+            Every::Spp(spp) => so_far.spp() - last.kept_spp >= spp,
+            Every::Never => false,
+        };
+        if due {
+            keeping::keep(so_far.checkpoint(), self.output);
+            (last.kept, last.kept_spp) = (Instant::now(), so_far.spp());
+        }
+    }
+
+    fn show_if_due(&self, last: &mut Last, so_far: &SoFar<'_>) {
+        let waited = |time: Duration| last.shown.elapsed() >= time;
+        // Asked first: a request is taken once.
+        if command_line::snapshot_asked() || self.args.snapshot.is_some_and(waited) {
+            let path = keeping::snapshot_of(self.output);
+            match so_far.frame().write_exr(&path, &self.metadata) {
+                Ok(()) => self.meter.say(&format!("{}: {} samples a pixel", path.display(), so_far.spp())),
+                Err(fault) => say(&format!("warning: {fault}")),
+            }
+            last.snapshot = Some(path);
+            last.shown = Instant::now();
+        }
+    }
+}
+
+impl Progress for Watch<'_> {
+    fn advance(&self, done: u64, total: u64) {
+        self.meter.advance(done as f64 / total.max(1) as f64);
+    }
+
+    fn cancelled(&self) -> bool {
+        command_line::interrupted() || self.end.is_some_and(|end| Instant::now() >= end)
+    }
+
+    fn pass_done(&self, so_far: &SoFar<'_>) -> Next {
+        let Ok(mut last) = self.last.lock() else { return Next::GoOn };
+        self.keep_if_due(&mut last, so_far);
+        self.show_if_due(&mut last, so_far);
+        Next::GoOn
+    }
+}
