@@ -10,6 +10,9 @@ use std::time::Instant;
 
 const FILES: usize = 200;
 
+/// What it is called, and how it writes a file.
+type Way<'a> = (&'a str, &'a dyn Fn(&Path));
+
 fn main() {
     let folder = std::env::args().skip(1).find(|word| !word.starts_with('-'));
     let folder = folder.map_or_else(std::env::temp_dir, Into::into);
@@ -24,7 +27,7 @@ fn main() {
         fs::rename(temporary, path).unwrap();
     };
     let whole = |path: &Path| whole_file::write_whole(path, &bytes).unwrap();
-    let ways: [(&str, &dyn Fn(&Path)); 4] = [
+    let ways: [Way; 4] = [
         ("plain write", &|path| fs::write(path, &bytes).unwrap()),
         ("and a rename", &|path| renamed(path, false)),
         ("and the file flushed", &|path| renamed(path, true)),
