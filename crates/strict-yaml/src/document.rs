@@ -101,6 +101,12 @@ impl Document {
         &self.root
     }
 
+    /// How many values it holds: mappings, lists and single ones.
+    #[must_use]
+    pub fn values(&self) -> usize {
+        count(&self.root)
+    }
+
     /// Takes a key with all below it out of the top of the document.
     pub fn take(&mut self, key: &str) -> Option<Node> {
         match &mut self.root.value {

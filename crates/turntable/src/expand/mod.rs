@@ -89,6 +89,9 @@ pub fn check_pipeline(file: &Path, options: &Options) -> Result<Checked, Turntab
     }
 }
 
+/// More values than this in all variants together are an attack.
+const MOST_VALUES: usize = 1_000_000;
+
 /// Every variant of a document, checked; never none.
 fn variants(mut document: Document, file: &Path, options: &Options) -> Result<Vec<Variant>, Vec<Fault>> {
     let variables = options.variables.iter().map(|text| Setting::variable(text));
@@ -101,6 +104,12 @@ fn variants(mut document: Document, file: &Path, options: &Options) -> Result<Ve
     }
     let matrix = Matrix::of(&mut document)?;
     let combinations = matrix.combinations(&document)?;
+    let (count, values) = (combinations.len(), document.values());
+    if count.saturating_mul(values) > MOST_VALUES {
+        let message =
+            format!("comes to {count} variants of {values} values, expected at most {MOST_VALUES} in all");
+        return Err(vec![document.fault("matrix", message)]);
+    }
     let mut told = Told::default();
     let mut used = declared;
     let mut variants: Vec<Variant> = Vec::new();
@@ -126,6 +135,9 @@ fn variants(mut document: Document, file: &Path, options: &Options) -> Result<Ve
                 variants.extend(read.pipeline.map(|pipeline| Variant { id, axes, pipeline }));
             }
             Err(faults) => told.add(id, faults),
+        }
+        if told.is_enough() {
+            break;
         }
     }
     let mut faults = told.faults(combinations.len());

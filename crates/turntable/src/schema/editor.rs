@@ -82,7 +82,10 @@ fn add_composing(root: &mut Value) {
 }
 
 fn composing_defs() -> Map<String, Value> {
-    let name = "^[\\p{L}\\p{N}_+-]([\\p{L}\\p{N}_+-]|\\.[0-9])*$";
+    // As `expand::matrix` has it, in words that every dialect of patterns knows: no sign but `+`, `-` and `_`, and a
+    // point only before a digit.
+    let letter = r"[^\s!-*,./:-@\[-^`{-~]";
+    let name = format!(r"^{letter}({letter}|\.[0-9])*$");
     let scalar = json!({"type": ["string", "number", "boolean"]});
     let defs = json!({
         "variable": {
@@ -108,7 +111,7 @@ fn composing_defs() -> Map<String, Value> {
                             "description": "Its values, which are their own names; or names with values.",
                             "anyOf": [
                                 {"type": "array", "minItems": 1, "items": scalar},
-                                {"type": "object", "minProperties": 1, "propertyNames": {"pattern": name}},
+                                {"type": "object", "minProperties": 1, "propertyNames": {"pattern": &name}},
                             ],
                         },
                     },
@@ -117,7 +120,7 @@ fn composing_defs() -> Map<String, Value> {
                 {
                     "type": "object",
                     "minProperties": 1,
-                    "propertyNames": {"pattern": name},
+                    "propertyNames": {"pattern": &name},
                     "additionalProperties": {"$ref": "#/$defs/patch"},
                 },
             ],
