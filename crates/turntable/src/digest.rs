@@ -1,11 +1,14 @@
 //! Digests: what a step's output depends on, in 32 letters.
 
+use std::cell::RefCell;
+use std::collections::HashMap;
 use std::fs::File;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use serde::Serialize;
 
 use crate::TurntableError;
+use crate::stamp::Stamp;
 
 /// A digest of everything one output depends on.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
@@ -14,6 +17,11 @@ pub(crate) struct Digest(String);
 impl Digest {
     pub fn as_str(&self) -> &str {
         &self.0
+    }
+
+    /// Back from [`Digest::as_str`].
+    pub fn from_text(text: &str) -> Option<Digest> {
+        (text.len() == 32 && text.bytes().all(|b| b.is_ascii_hexdigit())).then(|| Digest(text.to_owned()))
     }
 
     /// A number that follows from the digest.
@@ -55,12 +63,53 @@ impl Ingredients {
 
     /// Adds the bytes of a file; its name and time do not count.
     pub fn file(self, path: &Path) -> Result<Self, TurntableError> {
-        Ok(self.digest(&content(path)?))
+        Ok(self.digest(&input(path)?))
     }
 
     pub fn finish(self) -> Digest {
         Digest(self.0.finalize().to_hex()[..32].to_owned())
     }
+}
+
+thread_local! {
+    static MEMORY: RefCell<Option<HashMap<PathBuf, (Stamp, Digest)>>> = const { RefCell::new(None) };
+}
+
+/// While it lives, inputs whose size and times are known are not read: those that it was given, and those that were
+/// read since. All variants of a pipeline lean on the same files.
+pub(crate) struct Memory(());
+
+impl Memory {
+    pub fn of(known: impl Iterator<Item = (PathBuf, Stamp, Digest)>) -> Memory {
+        let known = known.map(|(path, stamp, digest)| (path, (stamp, digest))).collect();
+        MEMORY.set(Some(known));
+        Memory(())
+    }
+
+    /// Everything that is known by now.
+    pub fn inputs(&self) -> Vec<(PathBuf, Stamp, Digest)> {
+        let known = MEMORY.with_borrow(|memory| memory.clone().unwrap_or_default());
+        known.into_iter().map(|(path, (stamp, digest))| (path, stamp, digest)).collect()
+    }
+}
+
+impl Drop for Memory {
+    fn drop(&mut self) {
+        MEMORY.set(None);
+    }
+}
+
+/// The digest of an input's bytes, read or remembered.
+fn input(path: &Path) -> Result<Digest, TurntableError> {
+    let Some(stamp) = Stamp::of(path) else { return content(path) };
+    let full = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let known = MEMORY.with_borrow(|memory| memory.as_ref()?.get(&full).cloned());
+    if let Some((_, digest)) = known.filter(|(seen, _)| *seen == stamp) {
+        return Ok(digest);
+    }
+    let digest = content(path)?;
+    MEMORY.with_borrow_mut(|memory| memory.as_mut()?.insert(full, (stamp, digest.clone())));
+    Ok(digest)
 }
 
 /// The digest of a file's bytes.

@@ -24,6 +24,14 @@ pub enum TurntableError {
         /// How many frames there are.
         count: u32,
     },
+    /// `only` names an axis or a setting that the pipeline's `matrix` has not.
+    #[error("--only {asked}: {reason}")]
+    NoSuchVariant {
+        /// What was asked for.
+        asked: String,
+        /// What is wrong with it, and what there is.
+        reason: String,
+    },
     /// The system refused.
     #[error("{}: could not {action}: {source}", path.display())]
     Io {
@@ -52,9 +60,12 @@ pub enum TurntableError {
     /// The mesh could not be read.
     #[error(transparent)]
     Mesh(#[from] moving_mesh::MeshError),
-    /// A frame could not be rendered or written.
+    /// A frame could not be rendered, or a picture not read.
     #[error(transparent)]
     Render(#[from] hair_render::RenderError),
+    /// A frame that was rendered could not be put in its place.
+    #[error(transparent)]
+    Write(hair_render::RenderError),
     /// A frame that should be there cannot be read back.
     #[error("{}: cannot be read back ({reason}); delete it and run again", path.display())]
     Frame {
@@ -74,6 +85,17 @@ pub enum TurntableError {
 impl TurntableError {
     pub(crate) fn io(path: &std::path::Path, action: &'static str, source: std::io::Error) -> Self {
         TurntableError::Io { path: path.to_owned(), action, source }
+    }
+
+    /// Whether nothing else could be made after it: what was rendered could not be written down.
+    pub(crate) fn ends_all(&self) -> bool {
+        use hair_render::RenderError;
+        match self {
+            TurntableError::Interrupted | TurntableError::WholeFile(_) | TurntableError::Report(_) => true,
+            TurntableError::Io { action, .. } => *action != "read",
+            TurntableError::Write(_) | TurntableError::Render(RenderError::Threads { .. }) => true,
+            _ => false,
+        }
     }
 }
 

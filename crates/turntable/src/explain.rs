@@ -1,5 +1,8 @@
 //! What a plan will do, what it leaves out, and why.
 
+use std::ffi::OsStr;
+use std::path::Path;
+
 use serde::Serialize;
 
 use crate::{Plan, State, StepKind};
@@ -30,6 +33,28 @@ impl Plan {
         remarks
     }
 
+    /// The same, with steps that stand one after another and have the same said of them told as one.
+    #[must_use]
+    pub fn explain_grouped(&self) -> Vec<Remark> {
+        let mut grouped: Vec<(Remark, usize)> = Vec::new();
+        for remark in self.explain() {
+            match grouped.last_mut() {
+                Some((first, count))
+                    if (first.action, kind(&first.what)) == (remark.action, kind(&remark.what))
+                        && first.why == remark.why =>
+                {
+                    *count += 1
+                }
+                _ => grouped.push((remark, 1)),
+            }
+        }
+        let tell = |(remark, count): (Remark, usize)| match count {
+            1 => remark,
+            _ => Remark { what: format!("{} and {} more", remark.what, count - 1), ..remark },
+        };
+        grouped.into_iter().map(tell).collect()
+    }
+
     fn left_out(&self) -> Vec<Remark> {
         let due = |kind: fn(&StepKind) -> bool| {
             self.steps().iter().any(|s| kind(&s.kind) && matches!(s.state, State::Missing | State::Stale))
@@ -54,6 +79,12 @@ impl Plan {
             .map(|(_, what, why)| Remark { what: what.into(), action: "leave out", why: why.into() })
             .collect()
     }
+}
+
+/// Folder and ending: what stands beside each other and is alike.
+fn kind(what: &str) -> (Option<&Path>, Option<&OsStr>) {
+    let path = Path::new(what);
+    (path.parent(), path.extension())
 }
 
 fn of_state(what: &str, state: &State) -> Remark {

@@ -8,8 +8,8 @@
 //!
 //! Stale means: the digest of everything an output depends on (bytes of inputs, settings that matter
 //! to it, version and sources of the program) differs from the one it was made with, or its bytes are
-//! not those that were written. Frames carry their digest in the EXR header; `manifest.json` holds
-//! that of every output, and a digest of its bytes. Every file is written whole or not at all.
+//! not those that were written. Frames carry their digest in the EXR header; `manifest.jsonl` holds
+//! that of every output, a digest of its bytes, its size and its times. Every file is written whole or not at all.
 //!
 //! ```
 //! use turntable::{Options, Plan, State};
@@ -31,7 +31,10 @@ mod expand;
 mod explain;
 mod frame_file;
 mod frames;
+mod journal;
 mod manifest;
+mod only;
+mod options;
 mod outputs;
 mod plan;
 mod report;
@@ -39,12 +42,16 @@ mod reporter;
 mod run;
 pub mod schema;
 mod stage;
+mod stamp;
+mod summary;
+mod there;
 
 pub use error::TurntableError;
 pub use expand::{Checked, Variant, check_pipeline};
 pub use explain::Remark;
 pub use frames::{FrameRange, FrameRangeError};
-pub use plan::{Options, Plan, State, Step, StepKind};
+pub use options::{CheckpointEvery, Options, Phase};
+pub use plan::{Plan, State, Step, StepKind};
 pub use reporter::{Event, Reporter, Silent};
-pub use run::{FrameLine, Summary};
 pub use strict_yaml::Fault;
+pub use summary::{Failure, FrameLine, Summary};

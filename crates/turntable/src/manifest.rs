@@ -1,73 +1,187 @@
-//! What was made from what, for outputs that cannot carry a digest themselves.
+//! What was made from what, and whether it is still what was made.
 
-use std::collections::BTreeMap;
+use std::collections::HashMap;
 use std::path::{Path, PathBuf};
-
-use serde::{Deserialize, Serialize};
+use std::time::{Duration, Instant};
 
 use crate::TurntableError;
 use crate::digest::{self, Digest};
+use crate::journal::{Entry, Journal};
+use crate::stamp::Stamp;
 
-const SCHEMA: &str = "turntable-manifest/1";
+/// The file in the output folder. When it is lost or broken, its outputs are made again; frames are read again.
+pub(crate) const FILE: &str = "manifest.jsonl";
 
-/// A JSON file in the output folder. When it is lost or broken, its outputs are made again.
-#[derive(Debug, Serialize, Deserialize)]
+/// Two processes may make the same output at once, and each writes down the bytes it saw: so many are remembered.
+const KEPT: usize = 4;
+
+/// Clocks of file systems tick every 10 ms at worst (on a disk of this machine): a file changed again within the same
+/// tick would keep its stamp.
+const TICK: Duration = Duration::from_millis(20);
+
+/// Before a name in the journal: an input, not an output.
+const INPUT: &str = "input:";
+
+/// What is written down about an output folder.
+#[derive(Debug)]
 pub(crate) struct Manifest {
-    schema: String,
-    made: BTreeMap<String, Entry>,
-    #[serde(skip)]
     folder: PathBuf,
-}
-
-#[derive(Debug, Serialize, Deserialize)]
-struct Entry {
-    /// What the output depends on.
-    digest: String,
-    /// The bytes of the output.
-    content: String,
+    journal: Journal,
+    /// By output, newest last.
+    known: HashMap<String, Vec<Entry>>,
+    /// Written down without a stamp, for the file was too new for one.
+    unsettled: Vec<(Entry, Instant)>,
+    /// Whether stamps count.
+    trusting: bool,
 }
 
 impl Manifest {
-    fn path(folder: &Path) -> PathBuf {
-        folder.join("manifest.json")
+    /// The manifest of an output folder; empty when there is none that can be read. With `verify` every file is read,
+    /// whatever its size and times.
+    pub fn open(folder: &Path, verify: bool) -> Manifest {
+        let (journal, entries) = Journal::open(folder.join(FILE));
+        let mut manifest = Manifest {
+            folder: folder.to_owned(),
+            journal,
+            known: HashMap::new(),
+            unsettled: Vec::new(),
+            trusting: !verify,
+        };
+        entries.into_iter().for_each(|entry| manifest.remember(entry));
+        manifest
     }
 
-    /// The manifest of an output folder; empty when there is none that can be read.
-    pub fn open(folder: &Path) -> Manifest {
-        let text = std::fs::read_to_string(Manifest::path(folder)).unwrap_or_default();
-        let read = serde_json::from_str::<Manifest>(&text).ok().filter(|m| m.schema == SCHEMA);
-        let empty = || Manifest { schema: SCHEMA.into(), made: BTreeMap::new(), folder: PathBuf::new() };
-        Manifest { folder: folder.to_owned(), ..read.unwrap_or_else(empty) }
+    fn remember(&mut self, entry: Entry) {
+        let known = self.known.entry(entry.file.clone()).or_default();
+        // The same said again, now with a stamp.
+        known.retain(|old| (&old.digest, &old.content) != (&entry.digest, &entry.content));
+        known.push(entry);
+        if known.len() > KEPT {
+            known.remove(0);
+        }
     }
 
-    /// Whether `output` (inside the folder) was made from `digest` and still has the same bytes;
-    /// `None` when it was never made.
-    pub fn holds(&self, output: &Path, digest: &Digest) -> Option<bool> {
-        let entry = self.made.get(&key(output))?;
-        Some(entry.digest == digest.as_str() && self.is_as_written(output, entry))
+    /// What `output` (inside the folder) was made from, if its bytes are those that were written; none when they are
+    /// not, or when nothing is written down.
+    pub fn digest_of(&self, output: &Path) -> Option<&str> {
+        let known = self.known.get(&key(output))?;
+        if self.trusting
+            && let Some(stamps) = stamps(&self.folder.join(output))
+        {
+            let mut same = known.iter().filter(|entry| entry.stamps == stamps);
+            if let Some(entry) = same.next_back() {
+                // Two runs that made it from different things and saw the same file: one of them errs.
+                return same.all(|other| other.digest == entry.digest).then_some(&entry.digest);
+            }
+        }
+        let found = content(&self.folder.join(output)).ok()?;
+        known.iter().rev().find(|entry| entry.content == found).map(|entry| entry.digest.as_str())
     }
 
-    fn is_as_written(&self, output: &Path, entry: &Entry) -> bool {
-        content(&self.folder.join(output)).is_ok_and(|found| found == entry.content)
+    /// Whether it is written down that `output` was made from `digest`, whatever became of its bytes.
+    pub fn knows(&self, output: &Path, digest: &str) -> bool {
+        self.known.get(&key(output)).is_some_and(|known| known.iter().any(|entry| entry.digest == digest))
     }
 
-    /// Whether `output` still has the bytes that were written for `digest`; `None` when nobody wrote
-    /// down which those were.
-    pub fn vouches(&self, output: &Path, digest: &str) -> Option<bool> {
-        let entry = self.made.get(&key(output)).filter(|entry| entry.digest == digest)?;
-        Some(self.is_as_written(output, entry))
+    /// Whether `output` can only be told by reading it.
+    pub fn has_to_read(&self, output: &Path) -> bool {
+        let found = stamps(&self.folder.join(output));
+        let known = self.known.get(&key(output)).map(Vec::as_slice).unwrap_or_default();
+        !known.iter().any(|entry| !entry.stamps.is_empty() && Some(&entry.stamps) == found.as_ref())
     }
 
     /// Writes down that `output` was just made from `digest`.
     pub fn record(&mut self, output: &Path, digest: &Digest) -> Result<(), TurntableError> {
-        let content = content(&self.folder.join(output))?;
-        // Others may work in the same folder: what they wrote down since stays.
-        *self = Manifest::open(&self.folder);
-        self.made.insert(key(output), Entry { digest: digest.as_str().to_owned(), content });
-        let path = Manifest::path(&self.folder);
-        let text = serde_json::to_string_pretty(self).unwrap_or_default() + "\n";
-        whole_file::clear_stale(&path);
-        Ok(whole_file::write_whole(path, text.as_bytes())?)
+        self.write_down(output, digest.as_str())
+    }
+
+    /// Writes down what was found out by reading: that `output`, which nobody wrote down or which has other times than
+    /// those written down, is sound and was made from `digest`.
+    pub fn adopt(&mut self, output: &Path, digest: &str) -> Result<(), TurntableError> {
+        self.write_down(output, digest)
+    }
+
+    fn write_down(&mut self, output: &Path, digest: &str) -> Result<(), TurntableError> {
+        let path = self.folder.join(output);
+        let entry = Entry {
+            file: key(output),
+            digest: digest.to_owned(),
+            content: content(&path)?,
+            stamps: Vec::new(),
+        };
+        let stamped = Entry { stamps: stamps(&path).unwrap_or_default(), ..entry.clone() };
+        let mut lines = self.settled();
+        if !stamped.stamps.is_empty() && stamped.stamps.iter().all(Stamp::is_settled) {
+            lines.push(stamped);
+        } else {
+            lines.push(entry);
+            self.unsettled.push((stamped, Instant::now()));
+        }
+        self.add(lines)
+    }
+
+    /// What by now can be written down with its stamp.
+    fn settled(&mut self) -> Vec<Entry> {
+        let (old, new) =
+            std::mem::take(&mut self.unsettled).into_iter().partition(|(_, seen)| seen.elapsed() >= TICK);
+        self.unsettled = new;
+        let old: Vec<(Entry, Instant)> = old;
+        // Only if nobody touched it since.
+        let same = |entry: &Entry| {
+            !entry.stamps.is_empty() && stamps(&self.folder.join(&entry.file)).as_ref() == Some(&entry.stamps)
+        };
+        old.into_iter().map(|(entry, _)| entry).filter(same).collect()
+    }
+
+    fn add(&mut self, lines: Vec<Entry>) -> Result<(), TurntableError> {
+        self.journal.add(&lines)?;
+        lines.into_iter().for_each(|entry| self.remember(entry));
+        Ok(())
+    }
+
+    /// Writes down what is left to write down.
+    pub fn close(&mut self) -> Result<(), TurntableError> {
+        if let Some((_, last)) = self.unsettled.last() {
+            std::thread::sleep(TICK.saturating_sub(last.elapsed()));
+        }
+        let lines = self.settled();
+        self.add(lines)
+    }
+
+    /// Writes the file anew when it has grown far beyond what it says.
+    pub fn tidy(&mut self) -> Result<(), TurntableError> {
+        let needed = self.known.values().map(Vec::len).sum();
+        if !self.journal.is_cluttered(needed) {
+            return Ok(());
+        }
+        let mut names: Vec<&String> = self.known.keys().collect();
+        names.sort_unstable();
+        self.journal.rewrite(names.into_iter().flat_map(|name| &self.known[name]))
+    }
+
+    /// What is written down about inputs, for [`digest::Memory`].
+    pub fn inputs(&self) -> impl Iterator<Item = (PathBuf, Stamp, Digest)> + '_ {
+        let of = |entry: &Entry| {
+            let path = PathBuf::from(entry.file.strip_prefix(INPUT)?);
+            Some((path, *entry.stamps.first()?, Digest::from_text(&entry.content)?))
+        };
+        self.known.values().filter_map(move |entries| of(entries.last()?)).filter(|_| self.trusting)
+    }
+
+    /// Writes down what inputs hold, but for those changed so lately that their times say little.
+    pub fn record_inputs(&mut self, inputs: &[(PathBuf, Stamp, Digest)]) -> Result<(), TurntableError> {
+        let entry = |(path, stamp, content): &(PathBuf, Stamp, Digest)| Entry {
+            file: format!("{INPUT}{}", path.display()),
+            digest: String::new(),
+            content: content.as_str().to_owned(),
+            stamps: vec![*stamp],
+        };
+        let settled = inputs.iter().filter(|(path, stamp, _)| stamp.is_settled() && path.to_str().is_some());
+        let new = settled
+            .map(entry)
+            .filter(|entry| self.known.get(&entry.file).and_then(|k| k.last()) != Some(entry));
+        let new = new.collect();
+        self.add(new)
     }
 }
 
@@ -75,14 +189,24 @@ fn key(output: &Path) -> String {
     output.to_string_lossy().replace('\\', "/")
 }
 
+/// The files an output consists of.
+fn parts(path: &Path) -> Vec<PathBuf> {
+    let mut parts = vec![path.to_owned()];
+    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf")) {
+        parts.push(path.with_extension("bin"));
+    }
+    parts
+}
+
+fn stamps(path: &Path) -> Option<Vec<Stamp>> {
+    parts(path).iter().map(|part| Stamp::of(part)).collect()
+}
+
 /// The bytes of an output, with those of the file it leans on.
 fn content(path: &Path) -> Result<String, TurntableError> {
-    let own = digest::content(path)?;
-    if path.extension().is_some_and(|e| e.eq_ignore_ascii_case("gltf")) {
-        let buffer = digest::content(&path.with_extension("bin"))?;
-        return Ok(format!("{} {}", own.as_str(), buffer.as_str()));
-    }
-    Ok(own.as_str().to_owned())
+    let parts: Vec<Digest> =
+        parts(path).iter().map(|part| digest::content(part)).collect::<Result<_, _>>()?;
+    Ok(parts.iter().map(Digest::as_str).collect::<Vec<_>>().join(" "))
 }
 
 #[cfg(test)]
@@ -90,41 +214,118 @@ mod tests {
     use super::*;
     use crate::digest::Ingredients;
 
+    fn digest(word: &str) -> Digest {
+        Ingredients::of(word).finish()
+    }
+
+    fn open(folder: &Path) -> Manifest {
+        Manifest::open(folder, false)
+    }
+
     #[test]
     fn two_runs_keep_each_others_entries() {
         let folder = tempfile::tempdir().unwrap();
-        let digest = Ingredients::of("1").finish();
-        let mut runs = [Manifest::open(folder.path()), Manifest::open(folder.path())];
+        let mut runs = [open(folder.path()), open(folder.path())];
         for (run, name) in runs.iter_mut().zip(["a.txt", "b.txt"]) {
             std::fs::write(folder.path().join(name), name).unwrap();
-            run.record(Path::new(name), &digest).unwrap();
+            run.record(Path::new(name), &digest("1")).unwrap();
         }
-        let both = Manifest::open(folder.path());
-        assert!(["a.txt", "b.txt"].iter().all(|name| both.holds(Path::new(name), &digest) == Some(true)));
+        let both = open(folder.path());
+        for name in ["a.txt", "b.txt"] {
+            assert_eq!(both.digest_of(Path::new(name)), Some(digest("1").as_str()));
+        }
     }
 
     #[test]
     fn entries_answer_for_digest_and_bytes() {
         let folder = tempfile::tempdir().unwrap();
-        let (name, one, two) =
-            (Path::new("a.txt"), Ingredients::of("1").finish(), Ingredients::of("2").finish());
+        let (name, one) = (Path::new("a.txt"), digest("1"));
         let write = |text: &str| std::fs::write(folder.path().join(name), text).unwrap();
-        assert_eq!(Manifest::open(folder.path()).holds(name, &one), None);
+        let is_one = |manifest: &Manifest| manifest.digest_of(name) == Some(one.as_str());
+        assert_eq!(open(folder.path()).digest_of(name), None);
         write("x");
-        Manifest::open(folder.path()).record(name, &one).unwrap();
-        let again = || Manifest::open(folder.path());
-        assert_eq!(again().holds(name, &one), Some(true));
-        assert_eq!(again().holds(name, &two), Some(false));
-        assert_eq!(again().vouches(name, one.as_str()), Some(true));
-        assert_eq!(again().vouches(name, two.as_str()), None);
-        write("xy");
-        assert_eq!(again().vouches(name, one.as_str()), Some(false));
-        assert_eq!(again().holds(name, &one), Some(false));
+        open(folder.path()).record(name, &one).unwrap();
+        assert!(is_one(&open(folder.path())));
+        assert!(open(folder.path()).knows(name, one.as_str()));
+        assert!(!open(folder.path()).knows(name, digest("2").as_str()));
+        write("y");
+        assert_eq!(open(folder.path()).digest_of(name), None, "another byte, written at once");
+        write("x");
+        assert!(is_one(&open(folder.path())), "and back");
         std::fs::remove_file(folder.path().join(name)).unwrap();
-        assert_eq!(again().holds(name, &one), Some(false));
-        for broken in ["", "{", "{\"schema\": \"turntable-manifest/2\", \"made\": {}}"] {
-            std::fs::write(folder.path().join("manifest.json"), broken).unwrap();
-            assert_eq!(again().holds(name, &one), None);
+        assert_eq!(open(folder.path()).digest_of(name), None);
+        write("x");
+        for broken in
+            ["", "{", "{\"file\":\"a.txt\",\"digest\":\"d\",\"content\":\"c\",\"check\":\"00000000\"}\n"]
+        {
+            std::fs::write(folder.path().join(FILE), broken).unwrap();
+            assert_eq!(open(folder.path()).digest_of(name), None);
         }
+    }
+
+    #[test]
+    fn what_has_rested_is_not_read_again() {
+        let folder = tempfile::tempdir().unwrap();
+        let (name, one) = (Path::new("a.txt"), digest("1"));
+        std::fs::write(folder.path().join(name), "x").unwrap();
+        let mut manifest = open(folder.path());
+        manifest.record(name, &one).unwrap();
+        assert!(open(folder.path()).has_to_read(name), "its time may not tell it from what comes next");
+        manifest.close().unwrap();
+        assert!(!open(folder.path()).has_to_read(name));
+        assert_eq!(open(folder.path()).digest_of(name), Some(one.as_str()));
+        // Copied with its time, as a backup comes back: read once, and sound.
+        let modified = folder.path().join(name).metadata().unwrap().modified().unwrap();
+        std::fs::write(folder.path().join(name), "x").unwrap();
+        std::fs::File::options()
+            .write(true)
+            .open(folder.path().join(name))
+            .unwrap()
+            .set_modified(modified)
+            .unwrap();
+        assert_eq!(open(folder.path()).digest_of(name), Some(one.as_str()));
+    }
+
+    #[test]
+    fn only_reading_tells_a_file_with_the_stamp_of_another() {
+        let folder = tempfile::tempdir().unwrap();
+        let (name, one) = (Path::new("a.txt"), digest("1"));
+        std::fs::write(folder.path().join(name), "y").unwrap();
+        let stamps = stamps(&folder.path().join(name)).unwrap();
+        // As if these bytes had once been others, and nothing about the file had changed since.
+        let content = blake3::hash(b"x").to_hex()[..32].to_owned();
+        let entry = Entry { file: "a.txt".into(), digest: one.as_str().to_owned(), content, stamps };
+        Journal::open(folder.path().join(FILE)).0.add(&[entry]).unwrap();
+        assert_eq!(Manifest::open(folder.path(), false).digest_of(name), Some(one.as_str()));
+        assert_eq!(Manifest::open(folder.path(), true).digest_of(name), None);
+    }
+
+    #[test]
+    fn whoever_errs_about_one_file_is_not_believed() {
+        let folder = tempfile::tempdir().unwrap();
+        let name = Path::new("a.txt");
+        std::fs::write(folder.path().join(name), "x").unwrap();
+        // Two runs made it from different things; both saw the bytes of the one that came last.
+        for word in ["1", "2"] {
+            let mut run = open(folder.path());
+            run.record(name, &digest(word)).unwrap();
+            run.close().unwrap();
+        }
+        assert_eq!(open(folder.path()).digest_of(name), None);
+        std::fs::write(folder.path().join(name), "z").unwrap();
+        open(folder.path()).record(name, &digest("2")).unwrap();
+        assert_eq!(open(folder.path()).digest_of(name), Some(digest("2").as_str()));
+    }
+
+    #[test]
+    fn inputs_are_remembered_by_their_stamp() {
+        let folder = tempfile::tempdir().unwrap();
+        let stamp = Stamp { size: 1, modified: 1, changed: 1 };
+        let old = (PathBuf::from("/in/a.hair"), stamp, digest("a"));
+        let fresh = Stamp { modified: u64::MAX, ..stamp };
+        let mut manifest = open(folder.path());
+        manifest.record_inputs(&[old.clone(), ("/in/b.hair".into(), fresh, digest("b"))]).unwrap();
+        assert_eq!(open(folder.path()).inputs().collect::<Vec<_>>(), [old]);
+        assert_eq!(Manifest::open(folder.path(), true).inputs().count(), 0);
     }
 }

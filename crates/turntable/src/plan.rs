@@ -1,31 +1,16 @@
 //! What has to be made, what is up to date, and why.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 use std::path::{Path, PathBuf};
 
-use crate::digest::{Digest, Ingredients};
+use crate::digest::{Digest, Ingredients, Memory};
 use crate::expand::{Expanded, Variant, expand};
-use crate::manifest::Manifest;
+use crate::manifest::{self, Manifest};
 use crate::outputs::{self, Wanted};
 use crate::stage::{ingredients, views};
-use crate::{Fault, FrameRange, TurntableError, frame_file};
-
-/// What the caller asks for beside the file.
-#[derive(Clone, Debug, Default)]
-pub struct Options {
-    /// Settings laid over the file's, each as `render.spp=4`.
-    pub settings: Vec<String>,
-    /// Values of variables, each as `quality=4`; laid over the file's.
-    pub variables: Vec<String>,
-    /// Output folder instead of the file's.
-    pub output: Option<PathBuf>,
-    /// Frames to look after; all when `None`.
-    pub frames: Option<FrameRange>,
-    /// Rendering threads; one a core when `None`. Changes no pixel.
-    pub threads: Option<usize>,
-    /// The command line, to be written into every frame.
-    pub command: String,
-}
+use crate::stamp::Stamp;
+use crate::there::There;
+use crate::{Fault, Options, Phase, TurntableError, only};
 
 /// Whether an output has to be made.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -36,7 +21,7 @@ pub enum State {
     Missing,
     /// It was made from something else, or its bytes are not those that were written.
     Stale,
-    /// The same picture is there under another number, in this file.
+    /// The same picture is there under another number or of another variant, in this file.
     Elsewhere(PathBuf),
     /// Nobody asked for it.
     NotAsked,
@@ -82,6 +67,8 @@ pub struct Step {
     /// Whether it has to be made.
     pub state: State,
     pub(crate) digest: Digest,
+    /// The frames it is made of, as places among the frames of all variants.
+    pub(crate) needs: Vec<usize>,
 }
 
 /// A pipeline, checked, with the state of everything it makes. Making it reads inputs only to digest
@@ -93,6 +80,13 @@ pub struct Plan {
     pub(crate) options: Options,
     pub(crate) name: String,
     pub(crate) variants: Vec<Variant>,
+    /// Whether each variant is asked for.
+    pub(crate) asked: Vec<bool>,
+    pub(crate) there: There,
+    /// Outputs that are up to date, which only reading them could tell.
+    pub(crate) read: Vec<(PathBuf, String)>,
+    /// What the inputs hold.
+    pub(crate) inputs: Vec<(PathBuf, Stamp, Digest)>,
     steps: Vec<Step>,
 }
 
@@ -100,14 +94,18 @@ impl Plan {
     /// Reads and checks the pipeline in `file` and looks at what is there already.
     ///
     /// # Errors
-    /// [`TurntableError::Pipeline`] with every fault of the file, [`TurntableError::NoSuchFrame`], or
-    /// [`TurntableError::Io`] when an input cannot be read.
+    /// [`TurntableError::Pipeline`] with every fault of the file, [`TurntableError::NoSuchFrame`],
+    /// [`TurntableError::NoSuchVariant`], or [`TurntableError::Io`] when an input cannot be read.
     pub fn new(file: &Path, options: Options) -> Result<Plan, TurntableError> {
-        let Expanded { name, output, variants, inputs } = expand(file, &options)?;
+        let Expanded { name, output, variants, inputs: files } = expand(file, &options)?;
         let base = file.parent().unwrap_or(Path::new("")).to_owned();
-        let mut plan = Plan { base, output, options, name, variants, steps: Vec::new() };
-        plan.steps = plan.look()?;
-        plan.spare_inputs(file, inputs)?;
+        let asked = only::asked(&options.only, &variants)?;
+        let manifest = Manifest::open(&output, options.verify);
+        let there = There::look(&output, &manifest);
+        let (read, inputs, steps) = (Vec::new(), Vec::new(), Vec::new());
+        let mut plan = Plan { base, output, options, name, variants, asked, there, read, inputs, steps };
+        plan.look(&manifest)?;
+        plan.spare_inputs(file, files)?;
         Ok(plan)
     }
 
@@ -117,7 +115,7 @@ impl Plan {
             inputs.extend(ingredients::files(&variant.pipeline, &self.base)?);
         }
         let inputs: BTreeSet<PathBuf> = inputs.iter().filter_map(|input| input.canonicalize().ok()).collect();
-        let own = [Path::new("manifest.json"), Path::new("report.json"), Path::new("report.html")];
+        let own = [manifest::FILE, "report.json", "report.html"].map(Path::new);
         let outputs = self.steps.iter().map(|s| s.output.as_path()).chain(own);
         let faults: Vec<Fault> = outputs
             .filter(|output| self.output.join(output).canonicalize().is_ok_and(|o| inputs.contains(&o)))
@@ -160,34 +158,49 @@ impl Plan {
         self.steps.iter().all(|s| matches!(s.state, State::UpToDate | State::NotAsked))
     }
 
-    fn look(&self) -> Result<Vec<Step>, TurntableError> {
-        let manifest = Manifest::open(&self.output);
-        let there = self.sound_frames(&manifest);
+    /// Whether this kind of work is asked for, of this variant or of all together.
+    fn is_asked(&self, phase: Phase, variant: Option<usize>) -> bool {
+        let variant_asked = variant.is_none_or(|index| self.asked.get(index).is_some_and(|&asked| asked));
+        self.options.wants(phase) && variant_asked
+    }
+
+    fn look(&mut self, manifest: &Manifest) -> Result<(), TurntableError> {
+        self.check_frames_asked()?;
+        let memory = Memory::of(manifest.inputs());
         let mut converts = Vec::new();
         let mut frames = Vec::new();
-        for index in 0..self.variants.len() {
-            let pipeline = &self.variants[index].pipeline;
+        for (index, Variant { id, pipeline, .. }) in self.variants.iter().enumerate() {
             let groom = ingredients::groom(pipeline, &self.base)?;
             for path in &pipeline.convert {
                 let digest = Ingredients::of("convert").digest(&groom).word(&path.to_string_lossy()).finish();
-                let output = Path::new(&self.variants[index].id).join(path);
-                converts.push(self.made(&manifest, Some(index), StepKind::Convert, output, digest));
+                let output = Path::new(id).join(path);
+                let asked = self.is_asked(Phase::Prepare, Some(index));
+                converts.push(self.made(manifest, Some(index), StepKind::Convert, output, digest, asked));
             }
-            frames.extend(self.look_at_frames(index, &groom, &there)?);
+            frames.extend(self.look_at_frames(index, &groom)?);
         }
-        let is_there = |f: &Step| there.get(&f.output).is_some_and(|d| d == f.digest.as_str());
+        self.inputs = memory.inputs();
+        drop(memory);
+        let is_there = |f: &Step| self.there.digest(&f.output) == Some(f.digest.as_str());
         let after = outputs::wanted(&self.variants, &frames).into_iter().map(|wanted| {
             let Wanted { variant, kind, output, digest, needs } = wanted;
-            let mut step = self.made(&manifest, variant, kind, output, digest);
+            let asked = self.is_asked(Phase::Outputs, variant);
+            let mut step = self.made(manifest, variant, kind, output, digest, asked);
             // What needs frames that nobody asked for, and that are not there, waits for them.
             let lacking = |&i: &usize| frames[i].state == State::NotAsked && !is_there(&frames[i]);
             if step.state != State::UpToDate && needs.iter().any(lacking) {
                 step.state = State::NotAsked;
             }
+            step.needs = needs;
             step
         });
         let after: Vec<Step> = after.collect();
-        Ok(converts.into_iter().chain(frames).chain(after).collect())
+        let kept = converts.iter().chain(&after).filter(|step| step.state == State::UpToDate);
+        let read = kept.filter(|step| manifest.has_to_read(&step.output));
+        let read = read.map(|step| (step.output.clone(), step.digest.as_str().to_owned()));
+        self.read = read.chain(self.there.read()).collect();
+        self.steps = converts.into_iter().chain(frames).chain(after).collect();
+        Ok(())
     }
 
     /// A step whose output the manifest answers for.
@@ -198,96 +211,60 @@ impl Plan {
         kind: StepKind,
         output: PathBuf,
         digest: Digest,
+        asked: bool,
     ) -> Step {
-        let state = match manifest.holds(&output, &digest) {
-            _ if !self.output.join(&output).exists() => State::Missing,
-            Some(true) => State::UpToDate,
-            _ => State::Stale,
+        let state = if !asked {
+            State::NotAsked
+        } else if manifest.digest_of(&output) == Some(digest.as_str()) {
+            State::UpToDate
+        } else if self.output.join(&output).exists() {
+            State::Stale
+        } else {
+            State::Missing
         };
-        Step { variant, kind, output, state, digest }
+        Step { variant, kind, output, state, digest, needs: Vec::new() }
     }
 
-    /// The digest of a frame that is whole and undamaged.
-    ///
-    /// Its bytes are compared with those written down in the manifest; frames that others made and
-    /// nobody wrote down are unpacked instead, which takes longer.
-    fn sound_frame(&self, output: &Path, manifest: &Manifest) -> Option<String> {
-        let path = self.output.join(output);
-        let digest = frame_file::whole_header(&path)?.digest;
-        let sound = manifest.vouches(output, &digest).unwrap_or_else(|| frame_file::unpacks(&path));
-        sound.then_some(digest)
-    }
-
-    fn look_at_frames(
-        &self,
-        variant: usize,
-        groom: &Digest,
-        there: &BTreeMap<PathBuf, String>,
-    ) -> Result<Vec<Step>, TurntableError> {
-        let Variant { id, pipeline, .. } = &self.variants[variant];
-        let count = pipeline.turntable.frames;
-        if let Some(asked) = &self.options.frames
-            && !asked.iter().any(|number| (1..=count).contains(&number))
-        {
-            return Err(TurntableError::NoSuchFrame { asked: asked.to_string(), count });
+    /// Some variant has to have one of the frames that are asked for.
+    fn check_frames_asked(&self) -> Result<(), TurntableError> {
+        let Some(asked) = &self.options.frames else { return Ok(()) };
+        let most = self.variants.iter().map(|v| v.pipeline.turntable.frames).max().unwrap_or_default();
+        if asked.iter().any(|number| (1..=most).contains(&number)) {
+            return Ok(());
         }
+        Err(TurntableError::NoSuchFrame { asked: asked.to_string(), count: most })
+    }
+
+    fn look_at_frames(&self, variant: usize, groom: &Digest) -> Result<Vec<Step>, TurntableError> {
+        let Variant { id, pipeline, .. } = &self.variants[variant];
         let scene = ingredients::scene(pipeline, groom, &self.base)?;
-        let by_digest: BTreeMap<&str, &PathBuf> =
-            there.iter().map(|(path, digest)| (digest.as_str(), path)).collect();
+        let is_asked = self.is_asked(Phase::Frames, Some(variant));
         let step = |number: u32| {
             let azimuth = views::azimuth(&pipeline.turntable, number);
             let digest = ingredients::frame(pipeline, &scene, number);
             let output = Path::new("frames").join(id).join(format!("frame.{number:04}.exr"));
-            let path = self.output.join(&output);
-            let state = if self.options.frames.as_ref().is_some_and(|asked| !asked.contains(number)) {
-                State::NotAsked
-            } else if there.get(&output).is_some_and(|found| found == digest.as_str()) {
-                State::UpToDate
-            } else if let Some(other) = by_digest.get(digest.as_str()) {
-                State::Elsewhere(self.output.join(other))
-            } else if path.exists() {
-                State::Stale
-            } else {
-                State::Missing
-            };
-            Step { variant: Some(variant), kind: StepKind::Frame { number, azimuth }, output, state, digest }
+            let state =
+                if !is_asked || self.options.frames.as_ref().is_some_and(|asked| !asked.contains(number)) {
+                    State::NotAsked
+                } else if self.there.digest(&output) == Some(digest.as_str()) {
+                    State::UpToDate
+                } else if let Some(other) = self.there.place(digest.as_str()) {
+                    State::Elsewhere(self.output.join(other))
+                } else if self.there.has_file(&output) {
+                    State::Stale
+                } else {
+                    State::Missing
+                };
+            let kind = StepKind::Frame { number, azimuth };
+            Step { variant: Some(variant), kind, output, state, digest, needs: Vec::new() }
         };
-        Ok((1..=count).map(step).collect())
-    }
-
-    /// The sound frames in the output folder, whatever their number, with their digests.
-    fn sound_frames(&self, manifest: &Manifest) -> BTreeMap<PathBuf, String> {
-        let outputs = self.frame_files().into_iter();
-        outputs
-            .filter_map(|output| self.sound_frame(&output, manifest).map(|digest| (output, digest)))
-            .collect()
-    }
-
-    /// The EXR files of the output folder's `frames` and the folders in it, as paths inside the output folder.
-    fn frame_files(&self) -> BTreeSet<PathBuf> {
-        let mut found = BTreeSet::new();
-        let mut folders = vec![PathBuf::from("frames")];
-        while let Some(folder) = folders.pop() {
-            for entry in std::fs::read_dir(self.output.join(&folder)).into_iter().flatten().flatten() {
-                let path = folder.join(entry.file_name());
-                if entry.file_type().is_ok_and(|kind| kind.is_dir()) {
-                    folders.push(path);
-                } else if path.extension().is_some_and(|e| e == "exr") && !is_hidden(&path) {
-                    found.insert(path);
-                }
-            }
-        }
-        found
+        Ok((1..=pipeline.turntable.frames).map(step).collect())
     }
 
     /// Frames in the output folder that are none of this turntable's: left from a longer one.
     #[must_use]
     pub fn left_over(&self) -> Vec<PathBuf> {
         let own: BTreeSet<&Path> = self.steps.iter().map(|s| s.output.as_path()).collect();
-        self.frame_files().into_iter().filter(|path| !own.contains(path.as_path())).collect()
+        self.there.files().iter().filter(|path| !own.contains(path.as_path())).cloned().collect()
     }
-}
-
-fn is_hidden(path: &Path) -> bool {
-    path.file_name().is_none_or(|name| name.to_string_lossy().starts_with('.'))
 }

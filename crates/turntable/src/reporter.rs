@@ -2,6 +2,8 @@
 
 use std::path::Path;
 
+use crate::Failure;
+
 /// Something that happened during a run.
 #[derive(Clone, Copy, Debug)]
 #[non_exhaustive]
@@ -12,8 +14,16 @@ pub enum Event<'a> {
     Warning(&'a str),
     /// A file was put in its place, inside the output folder.
     Made(&'a Path),
+    /// About so many seconds are left, by the frames rendered so far.
+    Left(f64),
+    /// Something could not be made; the run goes on with the rest.
+    Failed(&'a Failure),
+    /// A frame that was to be rendered was put in its place by another process.
+    FoundDone(&'a Path),
     /// The rendering of a frame begins.
     FrameBegins {
+        /// Its variant, by its id; empty where the pipeline has no `matrix`.
+        variant: &'a str,
         /// Its number in the turntable, from 1.
         number: u32,
         /// How many this run rendered before.
@@ -23,6 +33,8 @@ pub enum Event<'a> {
     },
     /// A frame is on disk.
     FrameDone {
+        /// Its variant, by its id.
+        variant: &'a str,
         /// Its number in the turntable, from 1.
         number: u32,
         /// How many this run rendered before.
@@ -44,9 +56,24 @@ pub trait Reporter: Sync {
     /// `share` (0..1) of the rendering is done; may be called out of order.
     fn advance(&self, share: f64);
 
-    /// Whether to stop; nothing half done is then left behind.
+    /// Whether to stop. What is finished stays, and of the frame being rendered the work so far is kept.
     fn cancelled(&self) -> bool {
         false
+    }
+
+    /// Whether somebody asked, since this was last called, for the frame being rendered as far as it is.
+    fn snapshot_asked(&self) -> bool {
+        false
+    }
+
+    /// Whether [`Reporter::picture`] is waited for; asked after every pass of samples.
+    fn wants_picture(&self) -> bool {
+        false
+    }
+
+    /// The frame being rendered, as far as it is. `name` is its path inside the output folder.
+    fn picture(&self, name: &Path, frame: &hair_render::Frame) {
+        let _ = (name, frame);
     }
 }
 
