@@ -31,6 +31,20 @@ pub enum Event<'a> {
         /// How many this run renders.
         of: u32,
     },
+    /// A frame that was stopped half way is gone on with.
+    Resumed {
+        /// Samples a pixel it has.
+        spp: u32,
+        /// Samples a pixel it is to have.
+        of: u32,
+    },
+    /// The frame being rendered was written down as far as it is.
+    Snapshot {
+        /// Where to.
+        file: &'a Path,
+        /// Samples a pixel it has.
+        spp: u32,
+    },
     /// A frame is on disk.
     FrameDone {
         /// Its variant, by its id.

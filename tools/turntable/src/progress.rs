@@ -46,6 +46,14 @@ impl Reporter for Teller {
                 );
                 self.meter.say(&format!("frame {}: {error}, {seconds:.1} s", name(variant, *number)));
             }
+            Event::Resumed { spp, of } => {
+                self.meter.say(&format!("goes on from {spp} of {of} samples a pixel"));
+            }
+            Event::Snapshot { file, spp } => {
+                self.meter.say(&format!("{}: {spp} samples a pixel so far", file.display()));
+            }
+            Event::Failed(failure) => self.meter.say(&format!("error: {failure}; going on with the rest")),
+            Event::FoundDone(output) => self.meter.say(&format!("{}: made by another run", output.display())),
             Event::Left(seconds) => {
                 self.meter.left(Duration::try_from_secs_f64(*seconds).unwrap_or(Duration::MAX));
             }

@@ -5,7 +5,7 @@ use anyhow::Result;
 use crate::shell::{cargo, step};
 
 /// Every bench program of the workspace, low to high.
-const BENCHES: [(&str, &str); 14] = [
+const BENCHES: [(&str, &str); 15] = [
     ("cyhair", "read"),
     ("usd-layer", "read"),
     ("groom-formats", "convert"),
@@ -20,6 +20,7 @@ const BENCHES: [(&str, &str); 14] = [
     ("groom-binding", "motion"),
     ("hair-render-cli", "straight_hair"),
     ("hair-render-cli", "motion_samples"),
+    ("turntable-cli", "overhead"),
 ];
 
 /// Runs all of them in a release build.

@@ -26,6 +26,18 @@ impl Estimate {
         let seconds = |(variant, count): (usize, usize)| means.get(&variant).unwrap_or(&mean) * count as f64;
         (!means.is_empty()).then(|| frames.map(seconds).sum())
     }
+
+    /// The same while a frame of `variant` is rendered that will have taken `seconds`; it is among `frames`.
+    pub fn left_while(
+        &self,
+        variant: usize,
+        seconds: f64,
+        frames: impl Iterator<Item = (usize, usize)>,
+    ) -> f64 {
+        let mut with = Estimate { seen: self.seen.clone() };
+        with.add(variant, seconds);
+        with.left(frames).unwrap_or_default()
+    }
 }
 
 #[cfg(test)]
@@ -43,5 +55,6 @@ mod tests {
         estimate.add(1, 100.0);
         assert_eq!(estimate.left([(0, 5), (1, 1)].into_iter()), Some(110.0));
         assert_eq!(estimate.left([].into_iter()), Some(0.0));
+        assert_eq!(Estimate::default().left_while(3, 2.0, [(3, 4), (4, 1)].into_iter()), 10.0);
     }
 }

@@ -3,10 +3,11 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use hair_render::{FrameReport, Metadata};
+use hair_render::{Checkpoint, FrameReport, Metadata, RenderError, Rendered};
 
-use super::watch::Watch;
+use super::watch::{Left, Watch};
 use super::{Run, is_due};
+use crate::schema::Precision;
 use crate::stage::{self, Stage, View};
 use crate::stamp::Stamp;
 use crate::{Event, Step, StepKind, TurntableError, frame_file};
@@ -113,33 +114,97 @@ impl<'a> Run<'a> {
     }
 
     fn render(
-        &mut self,
+        &self,
         variant: usize,
         stage: &mut Stage,
         frame: &DueFrame,
     ) -> Result<FrameReport, TurntableError> {
+        let (path, digest) = (self.path(frame.step), frame.step.digest.as_str());
         let pipeline = &self.plan.variants[variant].pipeline;
         let View { scene, camera, frame_rate, exposure_seconds } = stage.view(frame.number)?;
         // The digest holds the pipeline's seed and the view: the noise of views must differ.
         let seed = frame.step.digest.number();
         let settings = stage::render_settings(&pipeline.render, seed, self.plan.options.threads);
-        let watch = Watch { reporter: self.reporter, index: self.index, of: self.of };
-        let picture =
-            hair_render::render_moving(scene, &camera, &settings, &watch).map_err(|error| match error {
-                hair_render::RenderError::Cancelled => TurntableError::Interrupted,
-                other => other.into(),
-            })?;
         let extra = [("turntable", self.plan.name.clone()), ("azimuth", frame.azimuth.to_string())];
         let metadata = Metadata {
             command: self.plan.options.command.clone(),
-            digest: frame.step.digest.as_str().to_owned(),
+            digest: digest.to_owned(),
             camera: Some(camera.at(0.5)),
+            precision: match pipeline.render.precision {
+                Precision::Float => hair_render::Precision::Float,
+                Precision::Half => hair_render::Precision::Half,
+            },
             frame_rate,
             exposure_seconds,
             extra: extra.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
-            ..Metadata::default()
         };
-        picture.write_exr(&self.path(frame.step), &metadata).map_err(TurntableError::Write)?;
-        Ok(picture.report)
+        let (checkpoint, snapshot) = (checkpoint_of(&path), self.snapshot_of(frame.step));
+        let frames: Vec<(usize, usize)> = self.to_render.iter().map(|(&v, &left)| (v, left)).collect();
+        let watch = Watch::new(
+            self.reporter,
+            &self.plan.options,
+            (self.index, self.of),
+            &frame.step.output,
+            (checkpoint.clone(), snapshot.clone()),
+            &metadata,
+            Left { estimate: &self.estimate, variant, frames: &frames },
+        );
+        let render = |start| hair_render::render_from(scene, &camera, &settings, digest, start, &watch);
+        let rendered = match render(self.start(&checkpoint, digest)) {
+            Err(error @ RenderError::OtherCheckpoint { .. }) => {
+                self.drop_checkpoint(&checkpoint, &error.to_string());
+                render(None)
+            }
+            rendered => rendered,
+        };
+        match rendered? {
+            Rendered::Done(picture) => {
+                picture.write_exr(&path, &metadata).map_err(TurntableError::Write)?;
+                for file in [&checkpoint, &snapshot] {
+                    // Mostly there is none.
+                    let _ = std::fs::remove_file(file);
+                }
+                Ok(picture.report)
+            }
+            Rendered::Stopped(so_far) => {
+                so_far.write(&checkpoint).map_err(TurntableError::Write)?;
+                Err(TurntableError::Interrupted)
+            }
+        }
+    }
+
+    /// What an earlier run left of this frame.
+    fn start(&self, path: &Path, digest: &str) -> Option<Checkpoint> {
+        if !self.plan.options.resume || !path.exists() {
+            return None;
+        }
+        match Checkpoint::read(path) {
+            Ok(found) if found.digest() == digest => {
+                let (spp, of) = (found.spp(), found.spp_asked());
+                self.reporter.event(&Event::Resumed { spp, of });
+                Some(found)
+            }
+            Ok(_) => {
+                self.drop_checkpoint(path, "it is of other inputs or settings");
+                None
+            }
+            Err(error) => {
+                self.drop_checkpoint(path, &error.to_string());
+                None
+            }
+        }
+    }
+
+    fn drop_checkpoint(&self, path: &Path, why: &str) {
+        let name = path.strip_prefix(&self.plan.output).unwrap_or(path).display();
+        let text = format!("{name}: the checkpoint is dropped, and the frame begun anew: {why}");
+        self.reporter.event(&Event::Warning(&text));
+        let _ = std::fs::remove_file(path);
+    }
+
+    /// Where a frame is shown while it is rendered: not beside the frames, where it would be taken for one.
+    fn snapshot_of(&self, step: &Step) -> PathBuf {
+        let inner = step.output.strip_prefix("frames").unwrap_or(&step.output);
+        self.plan.output.join("snapshots").join(inner)
     }
 }
