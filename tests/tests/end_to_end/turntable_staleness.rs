@@ -256,6 +256,102 @@ fn an_interrupted_run_says_so_and_leaves_nothing_half_made() {
     assert_eq!(bench.contents(), undisturbed.contents());
 }
 
+/// Files that only a frame being rendered has beside it.
+fn half_done(bench: &Bench) -> Vec<String> {
+    let names = bench.contents().into_keys().map(|p| p.display().to_string());
+    names.filter(|name| name.ends_with(".part.exr") || name.ends_with(".tmp")).collect()
+}
+
+#[test]
+fn time_limits_keep_the_work_and_the_bits() {
+    let undisturbed = Bench::new();
+    undisturbed.made(&SLOW);
+    let bench = Bench::new();
+    let mut stops = 0;
+    loop {
+        // As short as can be: the first pass of the first frame is not finished by then.
+        let limit = format!("{}", 0.02 * f64::from(stops + 1));
+        let output = bench.command(&SLOW).args(["--time-limit", &limit]).output().unwrap();
+        match output.status.code() {
+            Some(0) => break,
+            code => assert_eq!(code, Some(75), "{}", String::from_utf8_lossy(&output.stderr)),
+        }
+        stops += 1;
+    }
+    assert!(stops > 0, "no limit was met");
+    assert_eq!(half_done(&bench), Vec::<String>::new());
+    assert_eq!(bench.contents(), undisturbed.contents());
+}
+
+#[test]
+#[cfg(unix)]
+fn signals_show_the_frame_and_keep_it() {
+    let forever = ["--set", "render.spp=1000000", "--set", "turntable.frames=1"];
+    let bench = Bench::new();
+    let mut command = bench.command(&forever);
+    let mut child = command.args(["--progress", "openjd"]).stdout(Stdio::piped()).spawn().unwrap();
+    let send = |signal: &str, id: u32| {
+        assert!(Command::new("kill").args([signal, &id.to_string()]).status().unwrap().success());
+    };
+    // From its first progress on it listens.
+    let mut lines = std::io::BufRead::lines(std::io::BufReader::new(child.stdout.take().unwrap()));
+    assert!(lines.by_ref().any(|line| line.unwrap().starts_with("openjd_progress: ")));
+    send("-USR1", child.id());
+    let shown = bench.out().join("snapshots/frame.0001.exr");
+    while !shown.exists() {
+        assert!(child.try_wait().unwrap().is_none(), "it ended before it showed anything");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    assert!(!pixels(&shown).is_empty());
+    send("-TERM", child.id());
+    assert_eq!(child.wait().unwrap().code(), Some(75));
+    assert_eq!(half_done(&bench), ["frames/.frame.0001.part.exr"]);
+    let again = bench.command(&forever).args(["--time-limit", "0.5"]).output().unwrap();
+    let told = String::from_utf8_lossy(&again.stderr).into_owned();
+    assert!(told.contains("goes on from "), "{told}");
+}
+
+#[test]
+fn checkpoints_that_do_not_fit_are_dropped_with_a_word() {
+    let undisturbed = Bench::new();
+    undisturbed.made(&[]);
+    let bench = Bench::new();
+    let checkpoint = bench.out().join("frames/.frame.0001.part.exr");
+    std::fs::create_dir_all(checkpoint.parent().unwrap()).unwrap();
+    std::fs::write(&checkpoint, b"half").unwrap();
+    let output = bench.command(&[]).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert!(told.contains("frames/.frame.0001.part.exr: the checkpoint is dropped"), "{told}");
+    assert!(output.status.success() && !checkpoint.exists(), "{told}");
+    assert_eq!(bench.contents(), undisturbed.contents());
+    // A frame that is done needs none.
+    std::fs::write(&checkpoint, b"half").unwrap();
+    assert!(bench.made(&[]).is_empty());
+    assert!(!checkpoint.exists());
+}
+
+#[test]
+fn what_fails_is_named_and_the_rest_is_made() {
+    let bench = Bench::new();
+    let groom = "groom: {sample: {style: wavy, strands: 40, points: 6}}";
+    let text = PIPELINE.replace(&format!("{groom}\n"), "").replace("columns: 3, ", "");
+    let matrix = format!("matrix:\n  hair:\n    lost: {{groom: {{file: broken.hair}}}}\n    found: {{{groom}}}\n");
+    std::fs::write(bench.folder.path().join("turn.yaml"), format!("{text}{matrix}")).unwrap();
+    std::fs::write(bench.folder.path().join("broken.hair"), b"HAIR and nothing more").unwrap();
+    let output = bench.command(&["--json"]).output().unwrap();
+    let told = String::from_utf8_lossy(&output.stderr).into_owned();
+    assert_eq!(output.status.code(), Some(2), "{told}");
+    assert!(told.contains("broken.hair") && told.contains("frames/lost/frame.0001.exr and 2 more"), "{told}");
+    let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(summary["frames"].as_array().unwrap().len(), 3);
+    assert!(bench.out().join("frames/found/frame.0003.exr").exists());
+    assert!(!bench.out().join("sheet.png").exists(), "a sheet without some of its frames");
+    let only = bench.command(&["--only", "hair=found", "--check"]).output().unwrap();
+    assert_eq!(only.status.code(), Some(0), "{}", String::from_utf8_lossy(&only.stdout));
+    let fast = bench.command(&["--fail-fast"]).output().unwrap();
+    assert_eq!(fast.status.code(), Some(2));
+}
+
 #[test]
 fn runs_at_once_in_one_folder_do_not_disturb_each_other() {
     let undisturbed = Bench::new();

@@ -14,8 +14,8 @@ use hair_render::{
 };
 use turntable::{Options, Plan, Silent, Summary};
 
-const STRANDS: usize = 40;
-const POINTS: usize = 6;
+const STRANDS: u32 = 40;
+const POINTS: u32 = 6;
 const EDGE: u32 = 16;
 
 fn main() {
