@@ -5,12 +5,15 @@
 
 mod blender_alembic;
 mod blender_usd;
+mod chaos;
 mod convert_cli;
 mod convert_edits;
 mod convert_motion;
 mod convert_report;
 mod convert_validators;
 mod every_format;
+mod farm_files;
+mod farm_openjd;
 mod gltf_files;
 mod groom_bind;
 #[cfg(target_os = "linux")]

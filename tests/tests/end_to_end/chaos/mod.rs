@@ -1,0 +1,8 @@
+//! Renderers that are killed at any moment, many in one folder; disks that are full or may not be written.
+
+pub mod bench;
+#[cfg(target_os = "linux")]
+mod disks;
+#[cfg(unix)]
+mod storm;
+mod watcher;
