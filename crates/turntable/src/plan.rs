@@ -87,6 +87,7 @@ pub struct Plan {
     pub(crate) read: Vec<(PathBuf, String)>,
     /// What the inputs hold.
     pub(crate) inputs: Vec<(PathBuf, Stamp, Digest)>,
+    files: Vec<PathBuf>,
     steps: Vec<Step>,
 }
 
@@ -97,24 +98,26 @@ impl Plan {
     /// [`TurntableError::Pipeline`] with every fault of the file, [`TurntableError::NoSuchFrame`],
     /// [`TurntableError::NoSuchVariant`], or [`TurntableError::Io`] when an input cannot be read.
     pub fn new(file: &Path, options: Options) -> Result<Plan, TurntableError> {
-        let Expanded { name, output, variants, inputs: files } = expand(file, &options)?;
+        let Expanded { name, output, variants, inputs: mut files } = expand(file, &options)?;
         let base = file.parent().unwrap_or(Path::new("")).to_owned();
         let asked = only::asked(&options.only, &variants)?;
         let manifest = Manifest::open(&output, options.verify);
         let there = There::look(&output, &manifest);
+        for variant in &variants {
+            files.extend(ingredients::files(&variant.pipeline, &base)?);
+        }
         let (read, inputs, steps) = (Vec::new(), Vec::new(), Vec::new());
-        let mut plan = Plan { base, output, options, name, variants, asked, there, read, inputs, steps };
+        let mut plan =
+            Plan { base, output, options, name, variants, asked, there, read, inputs, files, steps };
         plan.look(&manifest)?;
-        plan.spare_inputs(file, files)?;
+        plan.spare_inputs(file)?;
         Ok(plan)
     }
 
     /// Refuses a plan that would write over what it reads.
-    fn spare_inputs(&self, file: &Path, mut inputs: Vec<PathBuf>) -> Result<(), TurntableError> {
-        for variant in &self.variants {
-            inputs.extend(ingredients::files(&variant.pipeline, &self.base)?);
-        }
-        let inputs: BTreeSet<PathBuf> = inputs.iter().filter_map(|input| input.canonicalize().ok()).collect();
+    fn spare_inputs(&self, file: &Path) -> Result<(), TurntableError> {
+        let inputs: BTreeSet<PathBuf> =
+            self.files.iter().filter_map(|input| input.canonicalize().ok()).collect();
         let own = [manifest::FILE, "report.json", "report.html"].map(Path::new);
         let outputs = self.steps.iter().map(|s| s.output.as_path()).chain(own);
         let faults: Vec<Fault> = outputs
@@ -138,6 +141,12 @@ impl Plan {
     #[must_use]
     pub fn name(&self) -> &str {
         &self.name
+    }
+
+    /// What it reads: its files, those they include, and what they name; some of them more than once.
+    #[must_use]
+    pub fn inputs(&self) -> &[PathBuf] {
+        &self.files
     }
 
     /// The folder everything is written to.

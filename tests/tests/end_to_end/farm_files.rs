@@ -128,7 +128,10 @@ fn a_slurm_script_submits_itself_and_its_tasks_make_the_frames() {
     assert_eq!(said, "Prepare: job 1\nFrames: job 2\nContactSheet: job 3\nReport: job 4\n");
     let calls = std::fs::read_to_string(jobs).unwrap();
     let calls: Vec<&str> = calls.lines().collect();
-    assert!(calls.iter().all(|call| call.contains("--parsable") && call.contains("--partition=short")), "{calls:?}");
+    assert!(
+        calls.iter().all(|call| call.contains("--parsable") && call.contains("--partition=short")),
+        "{calls:?}"
+    );
     assert!(calls[1].contains("--dependency=afterok:1"), "{calls:?}");
     assert!(calls[2].contains("--dependency=afterok:2"), "{calls:?}");
     assert!(calls[3].contains("--dependency=afterany:2:3"), "{calls:?}");
@@ -138,7 +141,16 @@ fn a_slurm_script_submits_itself_and_its_tasks_make_the_frames() {
 #[test]
 fn one_variant_and_some_frames_can_be_exported_alone() {
     let exported = Exported::new(&[
-        "--commands", "list", "--only", "light=cold", "--frames", "2,4", "--spp", "3", "--set", "tone.exposure=1",
+        "--commands",
+        "list",
+        "--only",
+        "light=cold",
+        "--frames",
+        "2,4",
+        "--spp",
+        "3",
+        "--set",
+        "tone.exposure=1",
     ]);
     let text = std::fs::read_to_string(exported.file("list")).unwrap();
     let lines: Vec<&str> = text.lines().filter(|line| !line.starts_with('#')).collect();
@@ -180,7 +192,13 @@ fn slips_are_told_and_write_nothing() {
 fn an_export_replaces_the_one_before_it() {
     let exported = Exported::new(&["--openjd", "bundle", "--slurm", "job", "--commands", "list"]);
     let read = |name: &str| std::fs::read_to_string(exported.file(name)).unwrap();
-    let names = ["bundle/template.yaml", "bundle/parameter_values.yaml", "bundle/asset_references.yaml", "job", "list"];
+    let names = [
+        "bundle/template.yaml",
+        "bundle/parameter_values.yaml",
+        "bundle/asset_references.yaml",
+        "job",
+        "list",
+    ];
     let before = names.map(read);
     let again = |flags: &[&str]| {
         let all = [&["--openjd", "bundle", "--slurm", "job", "--commands", "list"], flags].concat();
@@ -190,6 +208,7 @@ fn an_export_replaces_the_one_before_it() {
     assert_eq!(again(&[]), before, "the same pipeline, the same files");
     assert_ne!(again(&["--frames", "1-2"])[0], before[0]);
     let left = crate::chaos::bench::files_below(exported.bench.folder.path());
-    let left: Vec<&Path> = left.iter().map(PathBuf::as_path).filter(|p| crate::chaos::bench::is_hidden(p)).collect();
+    let left: Vec<&Path> =
+        left.iter().map(PathBuf::as_path).filter(|p| crate::chaos::bench::is_hidden(p)).collect();
     assert!(left.is_empty(), "{left:?}");
 }

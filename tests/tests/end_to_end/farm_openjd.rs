@@ -54,7 +54,22 @@ fn what_a_bundle_cannot_mean_its_reader_refuses() {
 
 /// Words that want quoting somewhere on the way: in YAML, in a format string, in the shell script the session writes.
 const SPITEFUL: [&str; 16] = [
-    "{{", "}}", "{{Param.Frames}}", "it's", "\"", "\\", "$HOME", "`id`", "a b", "-", "#", ": ", "髪 😀", "{", "%s", "'\\''",
+    "{{",
+    "}}",
+    "{{Param.Frames}}",
+    "it's",
+    "\"",
+    "\\",
+    "$HOME",
+    "`id`",
+    "a b",
+    "-",
+    "#",
+    ": ",
+    "髪 😀",
+    "{",
+    "%s",
+    "'\\''",
 ];
 
 #[test]

@@ -107,7 +107,8 @@ fn job(plan: &Plan, args: &ExportArgs) -> anyhow::Result<FarmJob> {
         std::path::absolute(path).with_context(|| format!("finding where {} is", path.display()))
     };
     let seconds = args.seconds.or_else(|| seconds_a_frame(plan.output()));
-    let only: Vec<String> = args.choice.only.iter().flat_map(|only| ["--only".to_owned(), only.clone()]).collect();
+    let only: Vec<String> =
+        args.choice.only.iter().flat_map(|only| ["--only".to_owned(), only.clone()]).collect();
     let steps = |kind: &str| [vec!["--steps".to_owned(), kind.to_owned()], only.clone()].concat();
     let has = |kind: fn(&StepKind) -> bool| plan.steps().iter().any(|step| kind(&step.kind));
     let sheet = if has(|kind| *kind == StepKind::Sheet) { "ContactSheet" } else { "Outputs" };
@@ -186,8 +187,11 @@ fn seconds_a_frame(output: &Path) -> Option<f64> {
 
 /// A job is never written over what it is made from.
 fn spare_inputs(files: &[(PathBuf, String)], job: &FarmJob) -> anyhow::Result<()> {
-    let inputs: BTreeSet<PathBuf> =
-        [&job.pipeline].into_iter().chain(&job.inputs).filter_map(|input| input.canonicalize().ok()).collect();
+    let inputs: BTreeSet<PathBuf> = [&job.pipeline]
+        .into_iter()
+        .chain(&job.inputs)
+        .filter_map(|input| input.canonicalize().ok())
+        .collect();
     for (file, _) in files {
         if file.canonicalize().is_ok_and(|file| inputs.contains(&file)) {
             bail!("{} would be written over, and the job reads it", file.display());
@@ -209,9 +213,15 @@ fn tell(job: &FarmJob, args: &ExportArgs) {
     lines.extend(openjd.as_ref().map(|folder| {
         format!("{}: its template.yaml says how to run it", farm_export::sh_quoted(&folder.to_string_lossy()))
     }));
-    lines.extend(slurm.as_ref().map(|file| format!("submit with: sh {}", farm_export::sh_quoted(&file.to_string_lossy()))));
     lines.extend(
-        commands.as_ref().map(|file| format!("run with: parallel < {}", farm_export::sh_quoted(&file.to_string_lossy()))),
+        slurm
+            .as_ref()
+            .map(|file| format!("submit with: sh {}", farm_export::sh_quoted(&file.to_string_lossy()))),
+    );
+    lines.extend(
+        commands
+            .as_ref()
+            .map(|file| format!("run with: parallel < {}", farm_export::sh_quoted(&file.to_string_lossy()))),
     );
     for line in lines {
         // `eprintln!` would panic when nobody reads stderr any more.

@@ -51,9 +51,8 @@ impl Bench {
 /// Every file below `out` that must be the same whenever the pipeline is: not the reports, the page and the manifest,
 /// which tell of seconds.
 pub fn contents(out: &Path) -> BTreeMap<PathBuf, Content> {
-    let tells_of_seconds = |path: &Path| {
-        matches!(path.extension().and_then(|e| e.to_str()), Some("json" | "jsonl" | "html"))
-    };
+    let tells_of_seconds =
+        |path: &Path| matches!(path.extension().and_then(|e| e.to_str()), Some("json" | "jsonl" | "html"));
     let files = files_below(out).into_iter().filter(|path| !tells_of_seconds(path));
     files.map(|path| (path.strip_prefix(out).unwrap().to_owned(), content(&path).unwrap())).collect()
 }
@@ -89,8 +88,9 @@ fn frame(path: &Path) -> Result<Content, String> {
         own.map(|value| format!("{value:?}"))
     };
     let channels = layer.channel_data.list.iter();
-    let pixels =
-        channels.flat_map(|c| c.sample_data.values_as_f32().flat_map(|v| v.to_bits().to_le_bytes())).collect();
+    let pixels = channels
+        .flat_map(|c| c.sample_data.values_as_f32().flat_map(|v| v.to_bits().to_le_bytes()))
+        .collect();
     Ok(Content::Frame { digest: attribute("digest").unwrap_or_default(), pixels })
 }
 

@@ -64,7 +64,8 @@ fn look(path: &Path, seen: &mut Seen) {
 /// Whether a file is all there, by what its format says of its end.
 fn whole(path: &Path) -> Result<(), String> {
     let read = || std::fs::read(path).map_err(|error| error.to_string());
-    let json = |text: &[u8]| serde_json::from_slice::<serde_json::Value>(text).map_err(|error| error.to_string());
+    let json =
+        |text: &[u8]| serde_json::from_slice::<serde_json::Value>(text).map_err(|error| error.to_string());
     match path.extension().and_then(|e| e.to_str()) {
         Some("exr") => content(path).map(drop),
         Some("png") => image::load_from_memory(&read()?).map(drop).map_err(|error| error.to_string()),
