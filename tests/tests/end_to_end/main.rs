@@ -22,6 +22,7 @@ mod layering;
 mod mitsuba_text;
 mod motion_files;
 mod turntable_files;
+mod turntable_schema;
 mod turntable_staleness;
 mod usd_core;
 mod usd_files;

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 use strict_yaml::{Document, DocumentError, Setting, nearest};
 
 use crate::schema::Pipeline;
-use crate::{Fault, Options, TurntableError, outputs};
+use crate::{Fault, Options, TurntableError, only, outputs};
 use matrix::{Combination, Matrix};
 use told::Told;
 
@@ -77,13 +77,17 @@ pub struct Checked {
 }
 
 /// Checks a pipeline file: what it says, and that the files it names are there. Nothing that is made of it is
-/// looked at.
+/// looked at. All variants are checked, and those that [`Options::only`] asks for handed out.
 ///
 /// # Errors
-/// [`TurntableError::Io`] when the file itself cannot be read.
+/// [`TurntableError::Io`] when the file itself cannot be read, [`TurntableError::NoSuchVariant`].
 pub fn check_pipeline(file: &Path, options: &Options) -> Result<Checked, TurntableError> {
     match expand(file, options) {
-        Ok(Expanded { variants, .. }) => Ok(Checked { faults: Vec::new(), variants }),
+        Ok(Expanded { mut variants, .. }) => {
+            let mut asked = only::asked(&options.only, &variants)?.into_iter();
+            variants.retain(|_| asked.next().unwrap_or(true));
+            Ok(Checked { faults: Vec::new(), variants })
+        }
         Err(TurntableError::Pipeline(faults)) => Ok(Checked { faults, variants: Vec::new() }),
         Err(error) => Err(error),
     }
