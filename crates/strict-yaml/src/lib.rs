@@ -41,4 +41,4 @@ pub use read::parse;
 pub use setting::Setting;
 pub use tree::Node;
 pub use typed::Reading;
-pub use write::write;
+pub use write::{write, write_brief};

@@ -27,13 +27,13 @@ pub struct Variant {
 }
 
 impl Variant {
-    /// The variant's pipeline in YAML, with everything it does not say itself: it reads back to the same. Paths
+    /// The variant's pipeline in YAML, its defaults said too: it reads back to the same. Paths
     /// count from the folder of the pipeline file it came from.
     ///
     /// # Errors
     /// Words, where a value cannot be written in YAML.
     pub fn to_yaml(&self) -> Result<String, String> {
-        strict_yaml::write(&self.pipeline)
+        strict_yaml::write_brief(&self.pipeline)
     }
 }
 

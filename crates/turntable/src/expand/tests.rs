@@ -272,7 +272,9 @@ fn a_variant_in_yaml_reads_back_to_the_same() {
         video: [{}]\npage: {}\nsheet: {captions: [variant]}\nmotion: {blur: off}\n\
         matrix: {look: {a: {camera: {position: [0.1, 0.2, 0.3]}}, b: {tone: {curve: clip}}}}\n";
     for variant in good(more) {
-        let again = of_text(&variant.to_yaml().unwrap(), &[]).unwrap_or_else(|faults| panic!("{faults:#?}"));
+        let text = variant.to_yaml().unwrap();
+        assert!(text.contains("beta_m: 0.1\n") && !text.contains("null"), "{text}");
+        let again = of_text(&text, &[]).unwrap_or_else(|faults| panic!("{faults:#?}"));
         assert_eq!(again[0].pipeline, variant.pipeline);
     }
 }
