@@ -1,6 +1,5 @@
 //! What a plan will do, what it leaves out, and why.
 
-use std::ffi::OsStr;
 use std::path::Path;
 
 use serde::Serialize;
@@ -38,14 +37,14 @@ impl Plan {
     pub fn explain_grouped(&self) -> Vec<Remark> {
         let mut grouped: Vec<(Remark, usize)> = Vec::new();
         for remark in self.explain() {
-            match grouped.last_mut() {
-                Some((first, count))
-                    if (first.action, kind(&first.what)) == (remark.action, kind(&remark.what))
-                        && first.why == remark.why =>
-                {
-                    *count += 1
-                }
-                _ => grouped.push((remark, 1)),
+            let is_like = |first: &Remark| {
+                first.action == remark.action
+                    && first.why == remark.why
+                    && is_beside(&first.what, &remark.what)
+            };
+            match grouped.last_mut().filter(|(first, _)| is_like(first)) {
+                Some((_, count)) => *count += 1,
+                None => grouped.push((remark, 1)),
             }
         }
         let tell = |(remark, count): (Remark, usize)| match count {
@@ -81,10 +80,10 @@ impl Plan {
     }
 }
 
-/// Folder and ending: what stands beside each other and is alike.
-fn kind(what: &str) -> (Option<&Path>, Option<&OsStr>) {
-    let path = Path::new(what);
-    (path.parent(), path.extension())
+/// Whether two files are of one kind and in one folder.
+fn is_beside(one: &str, other: &str) -> bool {
+    let (one, other) = (Path::new(one), Path::new(other));
+    one.extension().is_some() && one.extension() == other.extension() && one.parent() == other.parent()
 }
 
 fn of_state(what: &str, state: &State) -> Remark {

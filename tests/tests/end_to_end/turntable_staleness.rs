@@ -335,7 +335,8 @@ fn what_fails_is_named_and_the_rest_is_made() {
     let bench = Bench::new();
     let groom = "groom: {sample: {style: wavy, strands: 40, points: 6}}";
     let text = PIPELINE.replace(&format!("{groom}\n"), "").replace("columns: 3, ", "");
-    let matrix = format!("matrix:\n  hair:\n    lost: {{groom: {{file: broken.hair}}}}\n    found: {{{groom}}}\n");
+    let matrix =
+        format!("matrix:\n  hair:\n    lost: {{groom: {{file: broken.hair}}}}\n    found: {{{groom}}}\n");
     std::fs::write(bench.folder.path().join("turn.yaml"), format!("{text}{matrix}")).unwrap();
     std::fs::write(bench.folder.path().join("broken.hair"), b"HAIR and nothing more").unwrap();
     let output = bench.command(&["--json"]).output().unwrap();
