@@ -25,6 +25,12 @@ pub struct FarmArgs {
     /// asks for one too
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub snapshot: Option<Duration>,
+    /// Show the picture so far in a running tev (https://github.com/Tom94/tev) as it comes
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = "127.0.0.1:14158")]
+    pub display_server: Option<String>,
+    /// Draw the snapshots and the finished picture in the terminal
+    #[arg(long)]
+    pub preview: bool,
     /// How progress is told: a bar on stderr, or lines on stdout as farms read them
     #[arg(long, value_enum, value_name = "STYLE", default_value_t = ProgressStyle::Bar)]
     pub progress: ProgressStyle,

@@ -11,6 +11,7 @@ mod moving_groom;
 mod picture;
 mod presets;
 mod scene;
+mod show;
 mod watch;
 
 use std::process::ExitCode;

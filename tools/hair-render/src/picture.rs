@@ -17,6 +17,7 @@ use whole_file::clear_stale;
 use crate::args::{Args, Numbers};
 use crate::keeping::part_of;
 use crate::scene::{Described, Moment};
+use crate::show::Show;
 use crate::watch::Watch;
 use crate::{color_match, digest, keeping, scene};
 
@@ -98,7 +99,9 @@ fn rendered(args: &Args, start: Instant, meter: &Meter) -> Result<Outcome> {
     let begun = if args.farm.no_resume { None } else { keeping::taken_up(output, &digest) };
     let told = |blurred| metadata(args, camera.at(0.5), moment, blurred, &digest);
     let from = begun.as_ref().map_or(0, Checkpoint::spp);
-    let watch = Watch::new(&args.farm, output, told(moves || camera.moves()), meter, (start, from));
+    let name = output.display().to_string();
+    let show = Show::new(args.farm.display_server.as_deref(), &name, args.farm.preview, args.exposure);
+    let watch = Watch::new(&args.farm, output, told(moves || camera.moves()), meter, show, (start, from));
     let frame = match hair_render::render_from(&scene, &camera, &settings, &digest, begun, &watch)? {
         Rendered::Done(frame) => frame,
         Rendered::Stopped(checkpoint) => return stopped(&checkpoint, output),
@@ -107,7 +110,7 @@ fn rendered(args: &Args, start: Instant, meter: &Meter) -> Result<Outcome> {
     frame.write_exr(output, &told(frame.report.motion.is_some()))?;
     write_png(args, &frame)?;
     keeping::clear(output)?;
-    watch.clear_snapshot();
+    watch.done(&frame);
     let blur = frame.report.motion.is_some().then(|| Blurred::of(&scene));
     let moment = (moment.frame.is_some() || blur.is_some()).then_some(moment);
     let tables = scene.medulla_tables().cloned().collect();

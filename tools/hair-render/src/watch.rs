@@ -5,11 +5,12 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use command_line::Meter;
-use hair_render::{Metadata, Next, Progress, SoFar};
+use hair_render::{Frame, Metadata, Next, Progress, SoFar};
 
 use crate::farm_args::{Every, FarmArgs};
 use crate::keeping;
 use crate::picture::say;
+use crate::show::Show;
 
 /// The eyes on one render.
 pub struct Watch<'a> {
@@ -22,13 +23,14 @@ pub struct Watch<'a> {
     last: Mutex<Last>,
 }
 
-/// When things were done last.
+/// When things were done last, and who sees them.
 struct Last {
     kept: Instant,
     kept_spp: u32,
     shown: Instant,
     /// A snapshot that was written.
     snapshot: Option<PathBuf>,
+    show: Show,
 }
 
 impl<'a> Watch<'a> {
@@ -38,22 +40,24 @@ impl<'a> Watch<'a> {
         output: &'a Path,
         metadata: Metadata,
         meter: &'a Meter,
+        show: Show,
         (start, spp): (Instant, u32),
     ) -> Self {
         let now = Instant::now();
-        let last = Last { kept: now, kept_spp: spp, shown: now, snapshot: None };
+        let last = Last { kept: now, kept_spp: spp, shown: now, snapshot: None, show };
         let end = args.time_limit.and_then(|limit| start.checked_add(limit));
         Watch { args, output, metadata, meter, end, last: Mutex::new(last) }
     }
 
-    /// Removes the snapshot, once the picture itself is there.
-    pub fn clear_snapshot(&self) {
-        if let Ok(last) = self.last.lock()
-            && let Some(path) = &last.snapshot
-        {
+    /// Removes the snapshot and shows the picture, once that is there.
+    pub fn done(&self, frame: &Frame) {
+        let Ok(mut last) = self.last.lock() else { return };
+        if let Some(path) = &last.snapshot {
             // What is gone already is as good as removed.
             let _ = std::fs::remove_file(path);
         }
+        last.show.send(frame);
+        last.show.draw(frame);
     }
 
     fn keep_if_due(&self, last: &mut Last, so_far: &SoFar<'_>) {
@@ -73,12 +77,17 @@ impl<'a> Watch<'a> {
         // Asked first: a request is taken once.
         if command_line::snapshot_asked() || self.args.snapshot.is_some_and(waited) {
             let path = keeping::snapshot_of(self.output);
-            match so_far.frame().write_exr(&path, &self.metadata) {
+            let frame = so_far.frame();
+            last.show.draw(&frame);
+            match frame.write_exr(&path, &self.metadata) {
                 Ok(()) => self.meter.say(&format!("{}: {} samples a pixel", path.display(), so_far.spp())),
                 Err(fault) => say(&format!("warning: {fault}")),
             }
             last.snapshot = Some(path);
             last.shown = Instant::now();
+        }
+        if last.show.is_due() {
+            last.show.send(&so_far.frame());
         }
     }
 }

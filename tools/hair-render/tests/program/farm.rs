@@ -218,6 +218,32 @@ fn farms_read_progress_on_stdout() {
     assert!(String::from_utf8_lossy(&failed.stdout).starts_with("openjd_fail: "));
 }
 
+/// A viewer gets the picture under its name, and one that is not there stops nothing.
+#[test]
+fn a_viewer_is_sent_the_picture() {
+    use std::io::Read;
+    let folder = folder("viewer");
+    let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = listener.local_addr().unwrap().to_string();
+    let small =
+        ["--width", "16", "--height", "12", "--spp", "40", "-o", "a.exr", "--display-server", &address];
+    let viewer = std::thread::spawn(move || {
+        let mut bytes = Vec::new();
+        listener.accept().unwrap().0.read_to_end(&mut bytes).unwrap();
+        bytes
+    });
+    assert!(run(&folder, &small).status.success());
+    let bytes = viewer.join().unwrap();
+    assert!(bytes.windows(6).any(|w| w == b"a.exr\0"), "the picture's name");
+    // The picture after a pass and the finished one: 16 x 12 pixels of 4 floats each.
+    assert!(bytes.len() > 2 * 16 * 12 * 16, "{}", bytes.len());
+    let alone = run(&folder, &[&small[..9], &["127.0.0.1:1", "--preview"]].concat());
+    assert_eq!(alone.status.code(), Some(0), "{}", words(&alone));
+    let words = words(&alone);
+    assert_eq!(words.matches("--display-server").count(), 1, "{words}");
+    assert!(words.contains("stderr is no terminal"), "{words}");
+}
+
 /// A disk that is full in the middle of the picture: words that say so, and the old picture as it was.
 #[cfg(unix)]
 #[test]
