@@ -120,5 +120,5 @@ fn a_folder_that_cannot_be_made_is_named() {
     let out = folder.path().join("taken/out").display().to_string();
     let (told, code) = told(&["--out", &out, &file.display().to_string()]);
     assert_eq!(code, Some(2), "{told}");
-    assert!(told.contains("taken/out/frames: could not make the folder"), "{told}");
+    assert!(told.contains("taken/out: could not make the folder"), "{told}");
 }
