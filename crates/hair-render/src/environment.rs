@@ -67,6 +67,12 @@ impl Environment {
         self
     }
 
+    /// How far it is turned about the up axis, in radians.
+    #[must_use]
+    pub fn rotation(&self) -> f32 {
+        self.rotation
+    }
+
     pub(crate) fn turn_to(&mut self, angle: f32) {
         self.rotation = angle;
     }

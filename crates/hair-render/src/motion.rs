@@ -113,6 +113,12 @@ impl Motion {
         self.keys.len()
     }
 
+    /// The vectors of all points at each key; nothing where nothing was said.
+    #[must_use]
+    pub fn positions(&self) -> &[Vec<Vec3>] {
+        &self.keys
+    }
+
     /// All keys that tell something: all where points move, the first alone where they do not.
     pub(crate) fn distinct(&self) -> &[Vec<Vec3>] {
         if self.moves() { &self.keys } else { self.keys.get(..1).unwrap_or_default() }

@@ -60,6 +60,8 @@ impl MovingMesh {
         motion.time_range = motion.time_range.filter(|_| chosen.is_some());
         let shape = shape.checked().map_err(|fault| fault.in_file(path))?;
         motion.frame_rate = options.frame_rate.or(motion.frame_rate);
+        motion.is_z_up = options.z_up.unwrap_or(motion.is_z_up);
+        motion.meters_per_unit = options.meters_per_unit.unwrap_or(motion.meters_per_unit);
         let mut mesh = MovingMesh { path: path.to_owned(), shape, motion, source, rest: Pose::default() };
         let mut rest = Pose::default();
         mesh.at(options.rest, &mut rest)?;
@@ -207,7 +209,9 @@ impl MovingMesh {
 
 impl MeshOptions {
     fn check(&self) -> Result<(), MeshError> {
-        for (name, value) in [("frame rate", self.frame_rate), ("step", self.step)] {
+        for (name, value) in
+            [("frame rate", self.frame_rate), ("step", self.step), ("metres per unit", self.meters_per_unit)]
+        {
             if let Some(value) = value.filter(|value| !(value.is_finite() && *value > 0.0)) {
                 return Err(MeshError::Parameter { name, value, range: "a number above 0" });
             }

@@ -16,6 +16,10 @@ pub struct MeshOptions {
     pub frames: Option<(f64, f64)>,
     /// Frames between the samples of such a bake, above 0; `None` is 1, less gives sub-frames.
     pub step: Option<f64>,
+    /// Whether Z is up, whatever the file says; no number is changed by it.
+    pub z_up: Option<bool>,
+    /// How many metres a unit has, above 0, whatever the file says; no number is changed by it.
+    pub meters_per_unit: Option<f64>,
 }
 
 /// The pose a groom was made for.

@@ -60,6 +60,12 @@ pub enum TurntableError {
     /// The mesh could not be read.
     #[error(transparent)]
     Mesh(#[from] moving_mesh::MeshError),
+    /// What moves cannot be shown.
+    #[error(transparent)]
+    Motion(#[from] moving_scene::MovingSceneError),
+    /// Keys of the pipeline that lack each other.
+    #[error("{0}")]
+    Stage(String),
     /// A frame could not be rendered, or a picture not read.
     #[error(transparent)]
     Render(#[from] hair_render::RenderError),

@@ -73,9 +73,10 @@ impl Plan {
             (!pipeline.tone.frames, "PNG frames", "`tone.frames` is off"),
             (pipeline.convert.is_empty(), "converted files", "`convert` lists none"),
         ];
-        let cases = cases.into_iter().filter(|(left_out, ..)| *left_out);
+        let cases = cases.into_iter().filter(|(left_out, ..)| *left_out).map(|(_, what, why)| (what, why));
         cases
-            .map(|(_, what, why)| Remark { what: what.into(), action: "leave out", why: why.into() })
+            .chain(crate::stage::left_out(pipeline))
+            .map(|(what, why)| Remark { what: what.into(), action: "leave out", why: why.into() })
             .collect()
     }
 }

@@ -43,6 +43,7 @@ const ARROWS: [(&str, &[&str]); 27] = [
         ],
     ),
     ("frame-comp", &["hair-render"]),
+    ("moving-scene", &["groom", "groom-binding", "groom-formats", "hair-render", "moving-mesh"]),
     (
         "turntable",
         &[
@@ -51,10 +52,12 @@ const ARROWS: [(&str, &[&str]); 27] = [
             "flip-page",
             "frame-comp",
             "groom",
+            "groom-binding",
             "groom-formats",
             "groom-samples",
             "hair-render",
             "moving-mesh",
+            "moving-scene",
             "strict-yaml",
             "video-encode",
             "whole-file",

@@ -68,7 +68,8 @@ impl<'a> Run<'a> {
                 self.found_done += 1;
             } else {
                 if stage.is_none() {
-                    stage = Some(Stage::set(&plan.variants[variant].pipeline, &plan.base, self.reporter)?);
+                    let pipeline = &plan.variants[variant].pipeline;
+                    stage = Some(Stage::set(pipeline, &plan.base, self.reporter, &mut self.store)?);
                 }
                 let Some(stage) = &mut stage else { continue };
                 let result = self.frame(variant, stage, frame);

@@ -16,6 +16,7 @@ use std::time::Instant;
 use estimate::Estimate;
 
 use crate::manifest::Manifest;
+use crate::stage::Store;
 use crate::{Event, Failure, Plan, Reporter, State, Step, StepKind, Summary, TurntableError};
 
 impl Plan {
@@ -66,6 +67,8 @@ struct Run<'a> {
     plan: &'a Plan,
     reporter: &'a dyn Reporter,
     manifest: Manifest,
+    /// What variants have in common.
+    store: Store,
     made: Vec<PathBuf>,
     /// The frames among them that were rendered.
     rendered: BTreeSet<PathBuf>,
@@ -87,6 +90,7 @@ impl<'a> Run<'a> {
             plan,
             reporter,
             manifest: Manifest::open(&plan.output, plan.options.verify),
+            store: Store::default(),
             made: Vec::new(),
             rendered: BTreeSet::new(),
             failed: Vec::new(),

@@ -57,6 +57,8 @@ impl Default for CameraSettings {
 pub struct CameraFile {
     /// `.gltf`, `.glb`, `.usda`, `.usdc` or `.usdz`, relative to the pipeline file.
     pub path: PathBuf,
-    /// Its name (glTF) or path (USD) in the file; the first when absent.
+    /// Its name (glTF), its path or the last of it (USD), or its number from 0; the first when absent.
     pub name: Option<String>,
+    /// Which animation moves it, by name or by number from 0 (glTF); the first that does when absent.
+    pub animation: Option<String>,
 }

@@ -22,6 +22,8 @@ pub struct MeshSource {
     /// Reflected share of the light, linear Rec. 709.
     #[schemars(inner(range(min = 0.0, max = 1.0)))]
     pub albedo: [f32; 3],
+    /// Take the base colours of the file's materials instead; of a picture its mean.
+    pub base_colors: bool,
     /// Which animation moves it, by name or by number from 0 (glTF); the first when absent. Nothing of it moves
     /// without `motion`.
     pub animation: Option<String>,
@@ -34,6 +36,7 @@ impl Default for MeshSource {
             up: None,
             meters_per_unit: None,
             albedo: [0.5, 0.42, 0.36],
+            base_colors: false,
             animation: None,
         }
     }

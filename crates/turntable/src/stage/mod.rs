@@ -1,35 +1,90 @@
 //! What stands before the camera, for every frame of a variant.
+//!
+//! | what | from | module |
+//! |---|---|---|
+//! | strands | a file or sample, still, animated or bound to the mesh | `hair`, `prepare` |
+//! | a mesh | a file, still or animated | `meshes` |
+//! | light | environment, rectangles, a Cornell box | `lights`, `cornell` |
+//! | the camera | its circle, a place, a scene file | `cameras`, `views` |
+//!
+//! What is the same in all frames is loaded and built once, and kept for the next variant that wants it (`store`).
 
+mod cameras;
+mod cornell;
+mod hair;
 pub(crate) mod ingredients;
+mod left_out;
+mod lights;
 pub(crate) mod material;
+mod meshes;
 mod prepare;
-mod scene;
+mod settings;
+mod sources;
+mod store;
 pub(crate) mod views;
 
-use std::path::Path;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use groom::Groom;
-use hair_render::{MovingCamera, Scene};
+use hair_render::{
+    AreaLight, Blur, Bounds, Environment, HairMaterial, MovingCamera, Scene, SceneDescription,
+};
+use moving_scene::{Exposure, GroomAt};
 
-pub(crate) use scene::{render_settings, tone_mapping};
+pub(crate) use left_out::left_out;
+pub(crate) use settings::{render_settings, tone_mapping};
+pub(crate) use store::Store;
 
-use crate::schema::Pipeline;
+use crate::schema::{Pipeline, Turning};
 use crate::{Event, Reporter, TurntableError};
+use cameras::{Filming, Taken};
+use cornell::Room;
+use hair::{Hair, Opening};
+use meshes::{Body, When};
+
+/// A time that misses a frame by this part of one is at it.
+const ROUNDING: f64 = 1e-4;
 
 /// The groom of a variant: read or made up, then changed as the pipeline says.
 pub(crate) fn groom(
     pipeline: &Pipeline,
     base: &Path,
     reporter: &dyn Reporter,
-) -> Result<Groom, TurntableError> {
-    reporter.event(&Event::Stage("preparing the groom"));
-    prepare::groom(base, &pipeline.groom, &pipeline.attributes, reporter)
+    store: &mut Store,
+) -> Result<Arc<Groom>, TurntableError> {
+    store.groom(ingredients::groom(pipeline, base)?, || {
+        reporter.event(&Event::Stage("preparing the groom"));
+        prepare::groom(base, &pipeline.groom, &pipeline.attributes, reporter)
+    })
 }
 
 /// Everything that the frames of a variant have in common, loaded once.
-pub(crate) struct Stage {
+pub(crate) struct Stage<'a> {
     pipeline: Pipeline,
-    scene: scene::Lit,
+    base: PathBuf,
+    reporter: &'a dyn Reporter,
+    exposure: Exposure,
+    hair: Hair,
+    body: Option<Body>,
+    material: HairMaterial,
+    environment: Option<Environment>,
+    areas: Vec<AreaLight>,
+    filming: Filming,
+    /// The frame of the animation that the first picture shows; none where nothing is animated.
+    first: Option<f64>,
+    rate: f64,
+    framing: Option<Framing>,
+    built: Option<Arc<Scene>>,
+    told: BTreeSet<String>,
+}
+
+/// What the camera frames in all pictures: what is there in the first.
+#[derive(Clone, Copy, Debug)]
+struct Framing {
+    bounds: Option<Bounds>,
+    room: Option<Room>,
 }
 
 /// One frame, ready to be rendered.
@@ -38,26 +93,207 @@ pub(crate) struct View<'a> {
     pub camera: MovingCamera,
     /// Frames a second, where something moves.
     pub frame_rate: Option<f64>,
-    /// How long the shutter is open, where something moves.
+    /// How long the shutter is open, where something moves meanwhile.
     pub exposure_seconds: Option<f64>,
 }
 
-impl Stage {
+impl<'a> Stage<'a> {
     /// Loads what the frames of a variant need.
-    pub fn set(pipeline: &Pipeline, base: &Path, reporter: &dyn Reporter) -> Result<Stage, TurntableError> {
-        let groom = groom(pipeline, base, reporter)?;
+    pub fn set(
+        pipeline: &Pipeline,
+        base: &Path,
+        reporter: &'a dyn Reporter,
+        store: &mut Store,
+    ) -> Result<Stage<'a>, TurntableError> {
+        let exposure = settings::exposure(pipeline.motion.as_ref())?;
+        let filming = Filming::set(pipeline, base)?;
+        let (mut hair, opening) = strands(pipeline, base, &exposure, reporter, store)?;
         reporter.event(&Event::Stage("building the scene"));
-        let scene = scene::Lit::set(groom, pipeline, base)?;
-        Ok(Stage { pipeline: pipeline.clone(), scene })
+        let known = pipeline.motion.as_ref().and_then(|motion| motion.first.or(opening.frame));
+        let when = When {
+            moves: pipeline.motion.is_some(),
+            frames: known.map(|first| shown(pipeline, first)),
+            keys: opening.keys.unwrap_or_else(|| exposure.keys(exposure.blur.unwrap_or(Blur::Positions))),
+            groom_rate: opening.frame_rate,
+        };
+        let body = Body::open(pipeline, base, &when, &exposure)?;
+        let filmed = body.as_ref().and_then(Body::filmed);
+        let mesh_rate = filmed.and_then(|filmed| filmed.mesh.mesh().frame_rate());
+        let rate = exposure.rate(opening.frame_rate, mesh_rate.or(filming.frame_rate()));
+        let first = pipeline.motion.as_ref().map(|_| {
+            let of_mesh = filmed.and_then(|filmed| filmed.mesh.frames(rate)).map(|(first, _)| first);
+            let begins = of_mesh.or(filming.first_frame()).unwrap_or_default();
+            known.unwrap_or((begins - ROUNDING).ceil())
+        });
+        if let Some(bind) = &pipeline.bind {
+            let (Some(filmed), Hair::Still(groom)) = (filmed, &hair) else {
+                return Err(TurntableError::Stage("bind: there is no `mesh` to bind to".to_owned()));
+            };
+            let groom = Arc::clone(groom);
+            hair = Hair::bound(&groom, pipeline, bind, (&filmed.mesh, &filmed.path), reporter)?;
+        }
+        let fibre = pipeline.material.clone().open_all(base)?;
+        let mut stage = Stage {
+            pipeline: pipeline.clone(),
+            base: base.to_owned(),
+            reporter,
+            exposure,
+            hair,
+            body,
+            material: HairMaterial { fibre, ..HairMaterial::default() },
+            environment: lights::environment(&pipeline.lights, base)?,
+            areas: lights::areas(&pipeline.lights)?,
+            filming,
+            first,
+            rate,
+            framing: None,
+            built: None,
+            told: BTreeSet::new(),
+        };
+        if !stage.moves() && pipeline.turntable.turn == Turning::Camera {
+            stage.build_once(store)?;
+        }
+        Ok(stage)
+    }
+
+    /// The one scene of all frames.
+    fn build_once(&mut self, store: &mut Store) -> Result<(), TurntableError> {
+        let description = self.describe(1)?;
+        let room = self.frame_all(&description).room;
+        let groom = ingredients::groom(&self.pipeline, &self.base)?;
+        let digest = ingredients::scene(&self.pipeline, &groom, &self.base)?;
+        let description = self.lit(description, room, 0.0);
+        self.built = Some(store.scene(digest, || Scene::build(description))?);
+        Ok(())
     }
 
     /// Frame `number`, from 1.
     pub fn view(&mut self, number: u32) -> Result<View<'_>, TurntableError> {
-        let azimuth = views::azimuth(&self.pipeline.turntable, number);
-        let render = &self.pipeline.render;
-        let aspect = f64::from(render.width) / f64::from(render.height);
-        let scene = self.scene.scene(azimuth.to_radians())?;
-        let camera = scene::camera(scene, &self.pipeline.camera, azimuth, aspect)?;
-        Ok(View { scene, camera: camera.into(), frame_rate: None, exposure_seconds: None })
+        if self.framing.is_none() {
+            let first = self.describe(1)?;
+            self.frame_all(&first);
+        }
+        let Framing { bounds, room } = self.framing.unwrap_or(Framing { bounds: None, room: None });
+        let turn = &self.pipeline.turntable;
+        let azimuth = match turn.turn {
+            Turning::Camera => 0.0,
+            Turning::Groom => views::azimuth(turn, number).to_radians(),
+        };
+        let turns = turn.turn == Turning::Groom;
+        let only_sky_turns = self.areas.is_empty() && room.is_none();
+        let mut built = self.built.take().filter(|_| !self.moves() && (!turns || only_sky_turns));
+        if let (true, Some(scene)) = (turns, &mut built) {
+            let base = self.environment.as_ref().map_or(0.0, Environment::rotation);
+            match Arc::get_mut(scene) {
+                Some(scene) => scene.turn_environment(base + azimuth as f32),
+                None => built = None,
+            }
+        }
+        let scene = match built {
+            Some(scene) => scene,
+            None => {
+                let description = self.describe(number)?;
+                Arc::new(Scene::build(self.lit(description, room, azimuth))?)
+            }
+        };
+        let taken = Taken { number, frame: self.frame(number), rate: self.rate, bounds, room };
+        let camera = self.filming.camera(&taken, &self.exposure)?;
+        self.filming.words(&taken).into_iter().for_each(|word| self.tell(&word));
+        let scene: &Scene = self.built.insert(scene);
+        let blurred = scene.motion_keys().is_some() || camera.moves();
+        let [open, close] = self.exposure.shutter.seconds(self.rate)?;
+        Ok(View {
+            scene,
+            camera,
+            frame_rate: (blurred || self.first.is_some()).then_some(self.rate),
+            exposure_seconds: blurred.then_some(close - open),
+        })
     }
+
+    /// Whether the scene is another one in other frames.
+    fn moves(&self) -> bool {
+        let filmed = matches!(self.hair, Hair::Filmed { .. });
+        self.first.is_some() && (filmed || self.body.as_ref().is_some_and(Body::moves))
+    }
+
+    /// The frame of the animation that a picture shows.
+    fn frame(&self, number: u32) -> Option<f64> {
+        let step = self.pipeline.motion.as_ref()?.step;
+        Some(self.first? + step * f64::from(number - 1))
+    }
+
+    /// Hair and mesh of a frame.
+    fn describe(&mut self, number: u32) -> Result<SceneDescription, TurntableError> {
+        let frame = self.frame(number);
+        let mesh = self.body.as_ref().and_then(Body::filmed).map(|filmed| &filmed.mesh);
+        let strands = self.hair.strands(frame, self.rate, mesh, &self.exposure, &self.material)?;
+        let mut words = strands.words;
+        let posed =
+            self.body.as_ref().map(|body| body.posed(frame, self.rate, &self.exposure, strands.jumped));
+        let mut meshes = Vec::new();
+        if let Some(posed) = posed.transpose()? {
+            meshes = posed.objects;
+            words.extend(posed.words);
+        }
+        words.iter().for_each(|word| self.tell(word));
+        let shutter = self.exposure.shutter.clone();
+        Ok(SceneDescription { hair: vec![strands.object], meshes, shutter, ..SceneDescription::default() })
+    }
+
+    /// Takes what the first frame shows for what all frames show.
+    fn frame_all(&mut self, first: &SceneDescription) -> Framing {
+        let bounds = first.bounds();
+        let room = self.pipeline.lights.cornell.as_ref().map(|settings| Room::about(bounds, settings));
+        *self.framing.insert(Framing { bounds, room })
+    }
+
+    /// The scene with its lights, and the walls of its room, at `azimuth` radians.
+    ///
+    /// A groom that turns before a camera that stands is the same picture as a camera that goes round and takes the
+    /// lights with it.
+    fn lit(&self, mut description: SceneDescription, room: Option<Room>, azimuth: f64) -> SceneDescription {
+        let turn = |light: &AreaLight| if azimuth == 0.0 { *light } else { lights::turned(*light, azimuth) };
+        description.environment = self.environment.clone().map(|e| e.rotated(azimuth as f32));
+        description.lights = self.areas.iter().map(turn).collect();
+        if let (Some(room), Some(settings)) = (room, &self.pipeline.lights.cornell) {
+            description.meshes.extend(room.walls(azimuth));
+            description.lights.push(room.light(settings, azimuth));
+        }
+        description
+    }
+
+    /// Says something, once of all frames it holds for.
+    fn tell(&mut self, word: &str) {
+        let about = word.split(": frame ").next().unwrap_or(word);
+        if self.told.insert(about.to_owned()) {
+            self.reporter.event(&Event::Warning(word));
+        }
+    }
+}
+
+/// The strands of a pipeline, before they are bound to anything.
+fn strands(
+    pipeline: &Pipeline,
+    base: &Path,
+    exposure: &Exposure,
+    reporter: &dyn Reporter,
+    store: &mut Store,
+) -> Result<(Hair, Opening), TurntableError> {
+    let animated = pipeline.motion.is_some() && pipeline.bind.is_none();
+    let may_move = |file: &PathBuf| GroomAt::may_move(file);
+    if animated && pipeline.groom.file.as_ref().is_some_and(may_move) {
+        let (hair, opening) = Hair::filmed(pipeline, base, exposure, reporter)?;
+        if opening.moves {
+            return Ok((hair, opening));
+        }
+    }
+    let groom = groom(pipeline, base, reporter, store)?;
+    Ok((Hair::Still(groom), Opening::default()))
+}
+
+/// First and last frame of the animation that is shown.
+fn shown(pipeline: &Pipeline, first: f64) -> (f64, f64) {
+    let step = pipeline.motion.as_ref().map_or(1.0, |motion| motion.step);
+    let last = first + step * f64::from(pipeline.turntable.frames.saturating_sub(1));
+    (first.min(last), first.max(last))
 }

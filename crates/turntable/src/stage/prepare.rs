@@ -5,6 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 use groom::{Attribute, Domain, Groom, Values, names};
 use groom_formats::ReadOptions;
+use hair_render::Motion;
 
 use crate::schema::{Attributes, Axis, GroomSource, SampleSource, Style};
 use crate::{Event, Reporter, TurntableError};
@@ -36,17 +37,21 @@ pub(crate) fn up_axis(axis: Axis) -> groom::UpAxis {
 }
 
 fn read(path: &Path, source: &GroomSource, reporter: &dyn Reporter) -> Result<Groom, TurntableError> {
-    let options = ReadOptions {
-        up_axis: source.up.map(up_axis),
-        meters_per_unit: source.meters_per_unit,
-        repair: source.repair,
-        ..ReadOptions::default()
-    };
-    let loaded = groom_formats::read(path, &options)?;
+    let loaded = groom_formats::read(path, &read_options(source))?;
     for warning in &loaded.warnings {
         reporter.event(&Event::Warning(&format!("{}: {warning}", path.display())));
     }
     Ok(loaded.groom)
+}
+
+/// What a pipeline says of its groom's file.
+pub(super) fn read_options(source: &GroomSource) -> ReadOptions {
+    ReadOptions {
+        up_axis: source.up.map(up_axis),
+        meters_per_unit: source.meters_per_unit,
+        repair: source.repair,
+        ..ReadOptions::default()
+    }
 }
 
 fn make(sample: &SampleSource) -> Result<Groom, TurntableError> {
@@ -59,6 +64,30 @@ fn make(sample: &SampleSource) -> Result<Groom, TurntableError> {
     let options =
         groom_samples::Options { style, strands, points, seed, ..groom_samples::Options::default() };
     groom_samples::hair(&options).map_err(|error| TurntableError::Sample(error.to_string()))
+}
+
+/// The same changes made to a groom that moves: its keys lose the same strands and grow by the same factor.
+pub(super) fn change_moving(
+    mut groom: Groom,
+    motion: &Motion,
+    attributes: &Attributes,
+) -> Result<(Groom, Motion), TurntableError> {
+    let name = |key: usize| format!("turntable:key {key}");
+    let keys = if motion.moves() { motion.positions() } else { &[] };
+    // As attributes they go where their points go.
+    for (key, positions) in keys.iter().enumerate() {
+        let values = Values::Vec3(positions.clone());
+        groom.set_attribute(name(key), Attribute { domain: Domain::Vertex, values })?;
+    }
+    let mut groom = change(groom, attributes)?;
+    let factor = attributes.scale.unwrap_or(1.0);
+    let taken = (0..keys.len()).filter_map(|key| match groom.remove_attribute(&name(key))?.values {
+        Values::Vec3(positions) => Some(positions.into_iter().map(|position| position * factor).collect()),
+        _ => None,
+    });
+    let taken: Vec<Vec<Vec3>> = taken.collect();
+    let motion = if taken.is_empty() { Motion::STILL } else { Motion::keys(taken)? };
+    Ok((groom, motion))
 }
 
 /// Thins before it dresses: what is left out is not worked on.
@@ -126,6 +155,23 @@ mod tests {
         assert!(reds.iter().all(|r| (0.35..=0.708).contains(r)), "{reds:?}");
         assert!(reds.windows(2).any(|w| w[0] != w[1]));
         assert_eq!(colors.get(3, 9).y, 0.5 * reds[3]);
+    }
+
+    #[test]
+    fn what_moves_is_thinned_and_scaled_along() {
+        let groom = strands(10);
+        let moved = |by: Vec3| groom.positions().iter().map(|p| *p + by).collect::<Vec<_>>();
+        let motion = Motion::keys(vec![moved(Vec3::ZERO), moved(Vec3::Y), moved(Vec3::X)]).unwrap();
+        let attributes =
+            Attributes { stride: Some(3), max_strands: Some(2), scale: Some(2.0), ..Attributes::default() };
+        let (thin, keys) = change_moving(groom.clone(), &motion, &attributes).unwrap();
+        assert_eq!((thin.strand_count(), keys.key_count(), thin.attributes().count()), (2, 3, 0));
+        for (key, by) in keys.positions().iter().zip([Vec3::ZERO, Vec3::Y, Vec3::X]) {
+            let expected: Vec<Vec3> = thin.positions().iter().map(|p| *p + 2.0 * by).collect();
+            assert_eq!(*key, expected);
+        }
+        let (_, still) = change_moving(groom, &Motion::STILL, &attributes).unwrap();
+        assert_eq!(still.key_count(), 0);
     }
 
     #[test]
