@@ -23,6 +23,14 @@ pub enum BindingError {
         /// What would be right.
         expected: String,
     },
+    /// A change of the groom on its way to the mesh.
+    #[error("{option}: {source}")]
+    Alignment {
+        /// Which change.
+        option: &'static str,
+        /// What is wrong with it.
+        source: groom::GroomError,
+    },
     /// What is needed of the mesh's file cannot be had: a picture, say.
     #[error(transparent)]
     Mesh(#[from] moving_mesh::MeshError),

@@ -5,6 +5,7 @@
 //! with it. Knows meshes by their triangles and poses, not by their files, and no light.
 
 mod accuracy;
+mod alignment;
 mod anchors;
 mod bind_options;
 mod bind_report;
@@ -39,6 +40,7 @@ mod topology;
 mod vertex_normals;
 
 pub use accuracy::{AccuracyRow, blending_accuracy, velocity_accuracy};
+pub use alignment::{Alignment, Space};
 pub use bind_options::{Beyond, BindBy, BindOptions};
 pub use bind_report::BindReport;
 pub use binding::Binding;

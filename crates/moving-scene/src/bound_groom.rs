@@ -60,7 +60,7 @@ pub struct Carried {
 }
 
 impl BoundGroom {
-    /// Binds `groom`, which is in the numbers of `mesh` ([`crate::Alignment::apply`]), to the pose that the mesh calls
+    /// Binds `groom`, which is in the numbers of `mesh` ([`groom_binding::Alignment::apply`]), to the pose that the mesh calls
     /// its rest. Also what there is to say of it.
     ///
     /// # Errors
@@ -78,9 +78,7 @@ impl BoundGroom {
                 let (strands, limit) = (report.strands, limit.unwrap_or_default());
                 return Err(MovingSceneError::NothingBound { strands, limit });
             }
-            groom = groom
-                .keep_strands(kept)
-                .map_err(|source| MovingSceneError::Alignment { option: "beyond", source })?;
+            groom = groom.keep_strands(kept)?;
         }
         let words = told(&report, &bindings);
         Ok((BoundGroom { groom, binding, bindings }, words))

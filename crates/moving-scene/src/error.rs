@@ -24,14 +24,9 @@ pub enum MovingSceneError {
     /// Strands that cannot be bound.
     #[error(transparent)]
     Binding(#[from] BindingError),
-    /// A change of the groom on its way to the mesh.
-    #[error("{option}: {source}")]
-    Alignment {
-        /// Which change.
-        option: &'static str,
-        /// What is wrong with it.
-        source: GroomError,
-    },
+    /// Strands that cannot be left out.
+    #[error("beyond: {0}")]
+    Groom(#[from] GroomError),
     /// A file that does not hold what strands are to be blurred by.
     #[error("blur {asked}: {} has no {missing}; expected {expected}", path.display())]
     NoMotion {

@@ -11,7 +11,6 @@
 //!
 //! Every frame is the same whatever frames were asked for before it: many machines may share them.
 
-mod align;
 mod base_colors;
 mod bound_groom;
 mod error;
@@ -19,8 +18,8 @@ mod exposure;
 mod filmed_mesh;
 mod groom_at;
 mod outside;
+mod unit;
 
-pub use align::{Alignment, Space, says_unit};
 pub use base_colors::by_base_color;
 pub use bound_groom::{Bindings, BoundGroom, Carried};
 pub use error::MovingSceneError;
@@ -28,3 +27,4 @@ pub use exposure::{Exposure, USUAL_RATE};
 pub use filmed_mesh::{FilmedMesh, MeshAsked, animation_named};
 pub use groom_at::GroomAt;
 pub use outside::outside;
+pub use unit::says_unit;

@@ -1,60 +1,25 @@
 //! Bringing the groom into the mesh's numbers.
 
-use anyhow::{Context, Result};
-use groom::{Groom, UpAxis, names};
+use anyhow::Result;
+use groom::Groom;
+use groom_binding::{Alignment, BindingError, Space};
 use groom_formats::Format;
-use moving_mesh::MovingMesh;
 
 use crate::args::Aligning;
 
-/// What a mesh's numbers mean.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct Space {
-    pub(crate) up_axis: UpAxis,
-    pub(crate) meters_per_unit: f64,
-    /// Whether the file says its unit; OBJ does not.
-    pub(crate) unit_is_said: bool,
-}
-
-impl Space {
-    pub(crate) fn of(mesh: &MovingMesh, path: &std::path::Path) -> Space {
-        let is_obj = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj"));
-        Space {
-            up_axis: if mesh.is_z_up() { UpAxis::Z } else { UpAxis::Y },
-            meters_per_unit: mesh.meters_per_unit(),
-            unit_is_said: !is_obj,
-        }
-    }
-}
-
 /// Does what the options ask for, in the order of `--help`; the groom is in the mesh's numbers then.
 pub(crate) fn align(groom: &mut Groom, format: Format, space: Space, args: &Aligning) -> Result<()> {
-    // A motion of its own is not that of the mesh.
-    groom.remove_attribute(names::VELOCITY);
-    if let Some(up) = args.up {
-        groom.up_axis = up.into();
-    }
-    if let Some(matrix) = &args.matrix {
-        groom.transform(matrix).context("--matrix")?;
-        groom.up_axis = space.up_axis;
-        groom.meters_per_unit = space.meters_per_unit;
-        return Ok(());
-    }
-    let is_said = args.meters_per_unit.is_some() || says_unit(format, groom);
-    let units =
-        if is_said && space.unit_is_said { groom.meters_per_unit / space.meters_per_unit } else { 1.0 };
-    let factor = (units * args.scale.unwrap_or(1.0)) as f32;
-    if factor != 1.0 {
-        groom.scale(factor).context("--scale")?;
-    }
-    groom.turn_to(space.up_axis);
-    if let Some(offset) = args.translate {
-        groom.translate(offset).context("--translate")?;
-    }
-    if space.unit_is_said || !is_said {
-        groom.meters_per_unit = space.meters_per_unit;
-    }
-    Ok(())
+    let alignment = Alignment {
+        up: args.up.map(Into::into),
+        unit_is_said: args.meters_per_unit.is_some() || says_unit(format, groom),
+        scale: args.scale,
+        translate: args.translate,
+        matrix: args.matrix,
+    };
+    alignment.apply(groom, space).map_err(|error| match error {
+        BindingError::Alignment { .. } => anyhow::anyhow!("--{error}"),
+        other => other.into(),
+    })
 }
 
 /// Whether a file of this format says how large its unit is.
@@ -71,6 +36,7 @@ fn says_unit(format: Format, groom: &Groom) -> bool {
 mod tests {
     use clap::Parser;
     use glam::Vec3;
+    use groom::UpAxis;
 
     use super::*;
     use crate::args::Args;

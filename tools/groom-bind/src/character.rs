@@ -65,5 +65,12 @@ fn options(args: &Args, rest: RestPose) -> MeshOptions {
     let frames = args.mesh.frames.map(|range| (range.first as f64 - around, range.last as f64 + around));
     let between = shutter.offsets().windows(2).map(|pair| pair[1] - pair[0]).fold(shutter.reach(), f64::min);
     let step = args.mesh.frames.map_or(1.0, |range| range.step).min(between).max(FINEST_STEP);
-    MeshOptions { animation, rest, frame_rate: args.mesh.fps, frames, step: Some(step) }
+    MeshOptions {
+        animation,
+        rest,
+        frame_rate: args.mesh.fps,
+        frames,
+        step: Some(step),
+        ..MeshOptions::default()
+    }
 }

@@ -2,9 +2,10 @@
 
 use anyhow::{Result, bail};
 use groom::Groom;
+use groom_binding::Space;
 use groom_formats::Format;
 
-use crate::align::{Space, align};
+use crate::align::align;
 use crate::args::Args;
 use crate::character::Character;
 use crate::plausible::Turned;

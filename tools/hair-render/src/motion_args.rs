@@ -4,6 +4,7 @@ use std::str::FromStr;
 
 use clap::ValueEnum;
 use hair_render::{Blur, RenderError, Shutter, ShutterOffset, ShutterShape};
+use moving_scene::Exposure;
 
 use crate::args::Numbers;
 
@@ -121,7 +122,7 @@ impl From<BlurBy> for Blur {
 
 impl MotionArgs {
     /// The shutter that was asked for.
-    pub fn shutter(&self) -> Result<Shutter, RenderError> {
+    fn shutter(&self) -> Result<Shutter, RenderError> {
         let shape = self.shutter_shape.clone();
         let offset = match self.shutter_offset {
             Offset::Start => ShutterOffset::Start,
@@ -132,6 +133,16 @@ impl MotionArgs {
             Span::Ends(open, close) => Shutter::new(open, close, shape),
             Span::Length(length) => Shutter::placed(length, offset, shape),
         }
+    }
+
+    /// How the picture is exposed.
+    pub fn exposure(&self) -> Result<Exposure, RenderError> {
+        Ok(Exposure {
+            shutter: self.shutter()?,
+            blur: self.blur.map(Blur::from),
+            samples: self.motion_samples.map(usize::from),
+            frame_rate: self.fps,
+        })
     }
 
     /// Whether anything is to be blurred.

@@ -11,12 +11,11 @@ use hair_render::{
     AreaLight, Camera, Environment, HairColor, HairMaterial, HairObject, Material, MovingCamera, Scene,
     SceneDescription, Transparency,
 };
-use moving_mesh::MovingMesh;
+use moving_mesh::RestPose;
+use moving_scene::{FilmedMesh, GroomAt, MeshAsked, MovingSceneError, animation_named};
 
 use crate::args::{Args, Fibre, Input, Light, Up, View};
-use crate::meshes::When;
 use crate::motion_args::MotionArgs;
-use crate::{meshes, moving_groom};
 
 /// What the arguments describe.
 pub struct Described {
@@ -42,23 +41,33 @@ pub struct Moment {
 pub fn describe(args: &Args) -> Result<Described> {
     let path = args.groom.as_deref().context("no groom given")?;
     let motion_args = &args.motion;
-    let shutter = motion_args.shutter()?;
-    let read = moving_groom::read(path, read_options(&args.input), motion_args)?;
+    let exposure = motion_args.exposure()?;
+    let read = GroomAt::read(path, &read_options(&args.input), motion_args.frame).map_err(of_option)?;
     let mut words: Vec<String> =
         read.loaded.warnings.iter().map(|w| format!("{}: {w}", path.display())).collect();
     words.extend(read.loaded.repairs.iter().cloned());
-    let when = When { frame: read.frame, shutter: &shutter, keys: read.keys(motion_args) };
-    let open = |path: &PathBuf| meshes::open(path, args, &when, read.frame_rate());
-    let meshes: Vec<MovingMesh> = args.input.mesh.iter().map(open).collect::<Result<_>>()?;
-    let frame_rate = moving_groom::rate(motion_args, &read, meshes.iter().find_map(MovingMesh::frame_rate));
-    let motion = read.motion(path, motion_args, &shutter, frame_rate)?;
-    words.extend(read.outside(path));
-    let outside = |(mesh, path): (&MovingMesh, &PathBuf)| meshes::outside(mesh, path, &when, frame_rate);
-    words.extend(meshes.iter().zip(&args.input.mesh).filter_map(outside));
-    let pose = |mesh| meshes::pose(mesh, args, &when, frame_rate);
-    let meshes = meshes.iter().map(pose).collect::<Result<_>>()?;
+    let frame = read.frame();
+    let asked = MeshAsked {
+        animation: animation_named(motion_args.mesh_animation.as_deref()),
+        rest: RestPose::Nodes,
+        moves: frame.is_some(),
+        frames: frame.map(|frame| (frame, frame)),
+        keys: read.keys(&exposure),
+        groom_rate: read.frame_rate(),
+        ..MeshAsked::default()
+    };
+    let open = |path: &PathBuf| FilmedMesh::open(path, &asked, &exposure);
+    let meshes: Vec<FilmedMesh> = args.input.mesh.iter().map(open).collect::<Result<_, _>>()?;
+    let mesh_rate = meshes.iter().find_map(|mesh| mesh.mesh().frame_rate());
+    let frame_rate = exposure.rate(read.frame_rate(), mesh_rate);
+    let motion = read.motion(&exposure, frame_rate).map_err(of_option)?;
+    words.extend(read.outside());
+    words.extend(meshes.iter().filter_map(|mesh| mesh.outside(frame?, frame_rate)));
+    let pose = |mesh: &FilmedMesh| mesh.object(frame, &exposure, frame_rate, args.input.mesh_albedo);
+    let meshes = meshes.iter().map(pose).collect::<Result<_, _>>()?;
+    let shutter = exposure.shutter;
     let [open, close] = shutter.seconds(frame_rate)?;
-    let moment = Moment { frame: read.frame, frame_rate, exposure_seconds: close - open };
+    let moment = Moment { frame, frame_rate, exposure_seconds: close - open };
     let Loaded { groom, origin, .. } = read.loaded;
     let hair = HairObject { origin, motion, ..HairObject::still(groom, material(&args.fibre)?) };
     let description = SceneDescription {
@@ -69,6 +78,14 @@ pub fn describe(args: &Args) -> Result<Described> {
         shutter,
     };
     Ok(Described { description, words, moment })
+}
+
+/// The same error, with the option it is about.
+fn of_option(error: MovingSceneError) -> anyhow::Error {
+    match error {
+        MovingSceneError::Frame(_) | MovingSceneError::NoMotion { .. } => anyhow::anyhow!("--{error}"),
+        other => other.into(),
+    }
 }
 
 /// The square lights, which face `target`.

@@ -36,11 +36,28 @@ pub struct SampleSource {
     pub points: u32,
     /// Everything random follows from it.
     pub seed: u64,
+    /// Of fur: length of the longest strand as a part of the mesh's diagonal, over 0, up to 1; 0.03 when absent.
+    pub length: Option<f32>,
+    /// Of fur: 0 stands up from the skin, 1 lies along it at the tip; 0.8 when absent.
+    pub lean: Option<f32>,
+    /// Of fur: how far strands wind round their own course, as a part of their length, 0..1; 0.02 when absent.
+    pub curl: Option<f32>,
+    /// Of fur: how much tips gather in tufts, 0..1; 0.4 when absent.
+    pub clump: Option<f32>,
 }
 
 impl Default for SampleSource {
     fn default() -> Self {
-        SampleSource { style: Style::Wavy, strands: 5000, points: 24, seed: 1 }
+        SampleSource {
+            style: Style::Wavy,
+            strands: 5000,
+            points: 24,
+            seed: 1,
+            length: None,
+            lean: None,
+            curl: None,
+            clump: None,
+        }
     }
 }
 
@@ -54,6 +71,8 @@ pub enum Style {
     Wavy,
     /// Curly hair.
     Curly,
+    /// Fur all over the pipeline's `mesh`, in its unit and axes.
+    Fur,
 }
 
 /// An axis.

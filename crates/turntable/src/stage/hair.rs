@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
 use groom::Groom;
-use groom_binding::{Beyond, BindBy, Blend, CarryMode};
+use groom_binding::{Alignment, Beyond, BindBy, BindingError, Blend, CarryMode, Space};
 use groom_formats::ReadOptions;
 use hair_render::{Blur, HairMaterial, HairObject};
-use moving_scene::{Alignment, Bindings, BoundGroom, Exposure, FilmedMesh, GroomAt, Space};
+use moving_scene::{Bindings, BoundGroom, Exposure, FilmedMesh, GroomAt, MovingSceneError};
 
 use super::prepare;
 use crate::schema::{self, Attributes, Axis, Bind, Pipeline};
@@ -96,7 +96,8 @@ impl Hair {
             translate: bind.translate.map(DVec3::from_array),
             matrix: bind.matrix.map(|rows| DMat4::from_cols_array_2d(&rows).transpose()),
         };
-        alignment.apply(&mut groom, space)?;
+        let of_bind = |error: BindingError| TurntableError::from(MovingSceneError::from(error));
+        alignment.apply(&mut groom, space).map_err(of_bind)?;
         // Strands and mesh stand in one space.
         groom.meters_per_unit = space.meters_per_unit;
         let (bound, words) = BoundGroom::bind(groom, mesh, bindings(bind))?;

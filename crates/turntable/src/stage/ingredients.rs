@@ -7,7 +7,7 @@ use moving_scene::GroomAt;
 use super::{material, sources, views};
 use crate::TurntableError;
 use crate::digest::{Digest, Ingredients};
-use crate::schema::{BlurBy, Pipeline, Turning};
+use crate::schema::{BlurBy, Pipeline, Style, Turning};
 
 /// Every file that a pipeline reads.
 pub(crate) fn files(pipeline: &Pipeline, base: &Path) -> Result<Vec<PathBuf>, TurntableError> {
@@ -31,6 +31,15 @@ pub(crate) fn groom(pipeline: &Pipeline, base: &Path) -> Result<Digest, Turntabl
     if let Some(file) = &source.file {
         let ending = file.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
         digest = digest.word(&ending).file(&base.join(file))?;
+    }
+    if let (Some(sample), Some(mesh)) = (&source.sample, &pipeline.mesh)
+        && sample.style == Style::Fur
+    {
+        for file in sources::of_mesh(&base.join(&mesh.file))? {
+            digest = digest.file(&file)?;
+        }
+        let rest = pipeline.bind.as_ref().map(|bind| bind.rest);
+        digest = digest.settings(&(mesh.up, mesh.meters_per_unit, rest));
     }
     let settings = (&source.sample, source.up, source.meters_per_unit, source.repair);
     Ok(digest.settings(&settings).settings(&pipeline.attributes).finish())

@@ -11,6 +11,7 @@
 
 mod cameras;
 mod cornell;
+mod fur;
 mod hair;
 pub(crate) mod ingredients;
 mod left_out;
@@ -56,7 +57,7 @@ pub(crate) fn groom(
 ) -> Result<Arc<Groom>, TurntableError> {
     store.groom(ingredients::groom(pipeline, base)?, || {
         reporter.event(&Event::Stage("preparing the groom"));
-        prepare::groom(base, &pipeline.groom, &pipeline.attributes, reporter)
+        prepare::groom(pipeline, base, reporter)
     })
 }
 

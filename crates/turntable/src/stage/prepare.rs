@@ -7,18 +7,20 @@ use groom::{Attribute, Domain, Groom, Values, names};
 use groom_formats::ReadOptions;
 use hair_render::Motion;
 
-use crate::schema::{Attributes, Axis, GroomSource, SampleSource, Style};
+use super::fur;
+use crate::schema::{Attributes, Axis, GroomSource, Pipeline, SampleSource, Style};
 use crate::{Event, Reporter, TurntableError};
 
 /// Reads or makes the groom.
 pub(crate) fn groom(
+    pipeline: &Pipeline,
     base: &Path,
-    source: &GroomSource,
-    attributes: &Attributes,
     reporter: &dyn Reporter,
 ) -> Result<Groom, TurntableError> {
+    let (source, attributes) = (&pipeline.groom, &pipeline.attributes);
     let mut groom = match (&source.file, &source.sample) {
         (Some(file), _) => read(&base.join(file), source, reporter)?,
+        (None, Some(sample)) if sample.style == Style::Fur => fur::grown(sample, pipeline, base)?,
         (None, sample) => make(&sample.clone().unwrap_or_default())?,
     };
     if source.file.is_none() {
@@ -58,7 +60,7 @@ fn make(sample: &SampleSource) -> Result<Groom, TurntableError> {
     let style = match sample.style {
         Style::Straight => groom_samples::Style::Straight,
         Style::Wavy => groom_samples::Style::Wavy,
-        Style::Curly => groom_samples::Style::Curly,
+        Style::Curly | Style::Fur => groom_samples::Style::Curly,
     };
     let SampleSource { strands, points, seed, .. } = *sample;
     let options =

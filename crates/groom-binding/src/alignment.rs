@@ -4,10 +4,9 @@ use std::path::Path;
 
 use glam::{DMat4, DVec3};
 use groom::{Groom, UpAxis, names};
-use groom_formats::Format;
 use moving_mesh::MovingMesh;
 
-use crate::MovingSceneError;
+use crate::BindingError;
 
 /// What a mesh's numbers mean.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -53,9 +52,9 @@ impl Alignment {
     /// mesh's, else its numbers are taken for the mesh's.
     ///
     /// # Errors
-    /// [`MovingSceneError::Alignment`] for numbers that are out of range, which it names.
-    pub fn apply(&self, groom: &mut Groom, space: Space) -> Result<(), MovingSceneError> {
-        let fault = |option: &'static str| move |source| MovingSceneError::Alignment { option, source };
+    /// [`BindingError::Alignment`] for numbers that are out of range, which it names.
+    pub fn apply(&self, groom: &mut Groom, space: Space) -> Result<(), BindingError> {
+        let fault = |option: &'static str| move |source| BindingError::Alignment { option, source };
         // A motion of its own is not that of the mesh.
         groom.remove_attribute(names::VELOCITY);
         groom.up_axis = self.up.unwrap_or(groom.up_axis);
@@ -79,17 +78,6 @@ impl Alignment {
             groom.meters_per_unit = space.meters_per_unit;
         }
         Ok(())
-    }
-}
-
-/// Whether a file of this format says how large its unit is.
-#[must_use]
-pub fn says_unit(format: Format, groom: &Groom) -> bool {
-    match format {
-        Format::Usda | Format::Usdc | Format::Usdz | Format::Gltf | Format::Glb => true,
-        // Only Alembic files of ours say it; 1 is what a reader takes where nothing is said.
-        Format::Alembic => groom.meters_per_unit != 1.0,
-        _ => false,
     }
 }
 
