@@ -18,6 +18,8 @@ mod exposure;
 mod filmed_mesh;
 mod groom_at;
 mod outside;
+#[cfg(test)]
+mod tests;
 mod unit;
 
 pub use base_colors::by_base_color;

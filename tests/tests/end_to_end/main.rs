@@ -21,6 +21,7 @@ mod killed_writers;
 mod layering;
 mod mitsuba_text;
 mod motion_files;
+mod pipelines;
 mod turntable_files;
 mod turntable_schema;
 mod turntable_staleness;

@@ -5,13 +5,13 @@ use std::path::Path;
 use groom_formats::Format;
 
 use super::Check;
-use crate::schema::{Attributes, GroomSource, MeshSource};
+use crate::schema::{Attributes, GroomSource, MeshSource, SampleSource, Style};
 
 /// What meshes are read from.
 const MESHES: [&str; 7] = ["obj", "gltf", "glb", "usd", "usda", "usdc", "usdz"];
 
 impl Check<'_> {
-    pub(super) fn groom(&mut self, groom: &GroomSource) {
+    pub(super) fn groom(&mut self, groom: &GroomSource, has_mesh: bool) {
         match (&groom.file, &groom.sample) {
             (Some(file), None) => {
                 self.file("groom.file", file);
@@ -24,11 +24,34 @@ impl Check<'_> {
                 let (strands, points) = (sample.strands, sample.points);
                 self.need((1..=4_000_000).contains(&strands), "groom.sample.strands", strands, "1..=4000000");
                 self.need((3..=1000).contains(&points), "groom.sample.points", points, "3..=1000");
+                self.fur(sample, has_mesh);
             }
             (Some(_), Some(_)) => self.fault("groom", "has both `file` and `sample`; keep one"),
             (None, None) => self.fault("groom", "needs `file: PATH` or `sample: {...}`"),
         }
         self.unit("groom.meters_per_unit", groom.meters_per_unit);
+    }
+
+    fn fur(&mut self, sample: &SampleSource, has_mesh: bool) {
+        let is_fur = sample.style == Style::Fur;
+        if is_fur && !has_mesh {
+            self.fault("groom.sample.style", "is `fur`, which grows on a `mesh`; there is none");
+        }
+        let keys = [
+            ("length", sample.length),
+            ("lean", sample.lean),
+            ("curl", sample.curl),
+            ("clump", sample.clump),
+        ];
+        for (name, value) in keys.into_iter().filter_map(|(name, value)| Some((name, value?))) {
+            let key = format!("groom.sample.{name}");
+            if !is_fur {
+                self.fault(&*key, "is for `style: fur`");
+            }
+            let good = (0.0..=1.0).contains(&value) && (name != "length" || value > 0.0);
+            let range = if name == "length" { "over 0, up to 1" } else { "0..1" };
+            self.need(good, &key, value, range);
+        }
     }
 
     pub(super) fn mesh(&mut self, mesh: Option<&MeshSource>) {

@@ -32,7 +32,7 @@ struct Check<'a> {
 pub(crate) fn faults(pipeline: &Pipeline, base: &Path) -> Vec<(String, String)> {
     let mut check = Check { base, found: Vec::new() };
     check.version(pipeline.version);
-    check.groom(&pipeline.groom);
+    check.groom(&pipeline.groom, pipeline.mesh.is_some());
     check.mesh(pipeline.mesh.as_ref());
     check.attributes(&pipeline.attributes);
     check.bind(pipeline);

@@ -37,12 +37,16 @@ pub struct SampleSource {
     /// Everything random follows from it.
     pub seed: u64,
     /// Of fur: length of the longest strand as a part of the mesh's diagonal, over 0, up to 1; 0.03 when absent.
+    #[schemars(extend("exclusiveMinimum" = 0), range(max = 1))]
     pub length: Option<f32>,
     /// Of fur: 0 stands up from the skin, 1 lies along it at the tip; 0.8 when absent.
+    #[schemars(range(min = 0, max = 1))]
     pub lean: Option<f32>,
     /// Of fur: how far strands wind round their own course, as a part of their length, 0..1; 0.02 when absent.
+    #[schemars(range(min = 0, max = 1))]
     pub curl: Option<f32>,
     /// Of fur: how much tips gather in tufts, 0..1; 0.4 when absent.
+    #[schemars(range(min = 0, max = 1))]
     pub clump: Option<f32>,
 }
 

@@ -17,13 +17,16 @@ pub(super) fn grown(
     base: &Path,
 ) -> Result<Groom, TurntableError> {
     let Some(source) = &pipeline.mesh else {
-        return Err(TurntableError::Sample("`style: fur` grows on a mesh, and there is no `mesh`".to_owned()));
+        return Err(TurntableError::Sample(
+            "`style: fur` grows on a mesh, and there is no `mesh`".to_owned(),
+        ));
     };
     let (animation, rest) = match pipeline.bind.as_ref().map(|bind| bind.rest) {
         None | Some(Rest::Nodes) => (AnimationChoice::None, RestPose::Nodes),
         Some(Rest::Bind) => (AnimationChoice::None, RestPose::Bind),
         Some(Rest::Frame(_)) => {
-            let words = "`style: fur` grows on a mesh at rest, and `bind.rest` is a frame; expected bind or nodes";
+            let words =
+                "`style: fur` grows on a mesh at rest, and `bind.rest` is a frame; expected bind or nodes";
             return Err(TurntableError::Sample(words.to_owned()));
         }
     };

@@ -22,6 +22,8 @@ mod prepare;
 mod settings;
 mod sources;
 mod store;
+#[cfg(test)]
+mod tests;
 pub(crate) mod views;
 
 use std::collections::BTreeSet;
