@@ -39,14 +39,16 @@ impl Picture {
     /// The mean of a channel over the columns for which `is_in` holds, told as a part of the width.
     fn mean_where(&self, channel: usize, is_in: impl Fn(f32) -> bool) -> f32 {
         let column = |i: usize| ((i % self.width) as f32 + 0.5) / self.width as f32;
-        let all: Vec<f32> = (0..self.pixels.len()).filter(|&i| is_in(column(i))).map(|i| self.pixels[i][channel]).collect();
+        let all: Vec<f32> =
+            (0..self.pixels.len()).filter(|&i| is_in(column(i))).map(|i| self.pixels[i][channel]).collect();
         all.iter().sum::<f32>() / all.len() as f32
     }
 
     /// How far apart two pictures are, as a part of how bright they are.
     fn distance(&self, other: &Picture) -> f32 {
         let pairs = self.pixels.iter().flatten().zip(other.pixels.iter().flatten());
-        let (apart, bright) = pairs.fold((0.0, 1e-6), |(d, b), (x, y)| (d + (x - y).abs(), b + x.abs() + y.abs()));
+        let (apart, bright) =
+            pairs.fold((0.0, 1e-6), |(d, b), (x, y)| (d + (x - y).abs(), b + x.abs() + y.abs()));
         apart / bright
     }
 
@@ -62,7 +64,9 @@ fn frames(name: &str, settings: &[&str]) -> BTreeMap<String, Picture> {
     let out = folder.path().join("out");
     let pipeline = workspace().join("pipelines").join(name).display().to_string();
     let mut arguments = vec!["--out".to_owned(), out.display().to_string(), pipeline];
-    for setting in ["render.width=32", "render.height=32", "render.spp=2", "render.max_bounces=8"].iter().chain(settings) {
+    for setting in
+        ["render.width=32", "render.height=32", "render.spp=2", "render.max_bounces=8"].iter().chain(settings)
+    {
         arguments.extend(["--set".to_owned(), (*setting).to_owned()]);
     }
     let output = run("turntable", &arguments);
@@ -108,7 +112,9 @@ fn hair_sweeps_show_what_each_parameter_does() {
     let look = |name: &str| &frames[&format!("{name}/frame.0001")];
     assert!(look("honey").mean(1) > 1.5 * look("dark-brown").mean(1));
     assert!(look("beta_n-0.7").mean(0) > look("beta_n-0.1").mean(0));
-    assert!(look("hair").distance(look("fur")) > 0.02 && look("beta_m-0.1").distance(look("beta_m-0.6")) > 0.02);
+    assert!(
+        look("hair").distance(look("fur")) > 0.02 && look("beta_m-0.1").distance(look("beta_m-0.6")) > 0.02
+    );
     // One groom, one view: the same pixels are covered.
     assert!((look("honey").mean(3) - look("fur-dense").mean(3)).abs() < 0.05);
 }
@@ -126,7 +132,8 @@ fn an_animal_has_fur_all_over() {
 
 #[test]
 fn a_head_in_motion_moves_its_hair_and_is_blurred() {
-    let settings = ["turntable.frames=2", "attributes.max_strands=300", "attributes.width=0.003", "render.spp=16"];
+    let settings =
+        ["turntable.frames=2", "attributes.max_strands=300", "attributes.width=0.003", "render.spp=16"];
     let frames = frames("head-in-motion.yaml", &settings);
     let frame = |blur: &str, number: u32| &frames[&format!("{blur}/frame.{number:04}")];
     assert_eq!(frames.len(), 4);
@@ -142,11 +149,14 @@ fn a_head_in_motion_moves_its_hair_and_is_blurred() {
 
 #[test]
 fn a_cornell_box_has_its_colours_on_their_sides() {
-    let settings = ["turntable.frames=2", "groom.sample.strands=200", "attributes.width=0.004", "render.spp=16"];
+    let settings =
+        ["turntable.frames=2", "groom.sample.strands=200", "attributes.width=0.004", "render.spp=16"];
     let frames = frames("cornell.yaml", &settings);
     for (name, picture) in &frames {
         assert!(picture.mean(3) > 0.9, "{name}: the room fills the picture");
-        let share = |channel: usize, left: bool| picture.mean_where(channel, |x| if left { x < 0.12 } else { x > 0.88 });
+        let share = |channel: usize, left: bool| {
+            picture.mean_where(channel, |x| if left { x < 0.12 } else { x > 0.88 })
+        };
         assert!(share(0, true) > 2.0 * share(1, true), "{name}: red is left");
         assert!(share(1, false) > 1.5 * share(0, false), "{name}: green is right");
     }
@@ -155,7 +165,10 @@ fn a_cornell_box_has_its_colours_on_their_sides() {
 
 #[test]
 fn grooms_and_lights_make_six_variants() {
-    let frames = frames("lights.yaml", &["turntable.frames=1", "attributes.max_strands=300", "attributes.width=0.003"]);
+    let frames = frames(
+        "lights.yaml",
+        &["turntable.frames=1", "attributes.max_strands=300", "attributes.width=0.003"],
+    );
     let expected = ["curly", "straight", "wavy"]
         .map(|groom| ["key-and-rim", "studio"].map(|light| format!("{groom}/{light}/frame.0001")));
     assert_eq!(names(&frames), expected.iter().flatten().collect::<Vec<_>>());

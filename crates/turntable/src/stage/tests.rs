@@ -84,7 +84,9 @@ fn one_scene_serves_all_frames_of_a_still_groom_and_all_variants_that_share_it()
 #[test]
 fn bound_hair_goes_with_its_mesh_and_a_frame_is_the_same_whatever_was_before() {
     let heard = Heard::default();
-    let with = |motion: &str| pipeline(&format!("{SHAKING}motion: {motion}\nturntable: {{frames: 3, degrees: 0}}\n"));
+    let with = |motion: &str| {
+        pipeline(&format!("{SHAKING}motion: {motion}\nturntable: {{frames: 3, degrees: 0}}\n"))
+    };
     let moving = with("{first: 2, step: 5}");
     let mut stage = set(&moving, &heard).unwrap();
     let all: Vec<_> = (1..=3).map(|number| seen(&mut stage, number)).collect();
@@ -100,7 +102,10 @@ fn bound_hair_goes_with_its_mesh_and_a_frame_is_the_same_whatever_was_before() {
     let mut outside = set(&with("{first: 20, step: 10}"), &heard).unwrap();
     (1..=3).for_each(|number| drop(outside.view(number).unwrap()));
     let words = heard.words();
-    assert!(words.len() == 1 && words[0].contains("nodding_head.glb: frame 30 is outside 0 to 24"), "{words:?}");
+    assert!(
+        words.len() == 1 && words[0].contains("nodding_head.glb: frame 30 is outside 0 to 24"),
+        "{words:?}"
+    );
 }
 
 #[test]
@@ -167,10 +172,15 @@ fn the_camera_may_stay_rise_or_be_that_of_a_file() {
     let fixed = positions("camera: {position: [1, 2, 3], target: [0, 0, 0]}\nturntable: {frames: 2}\n");
     assert_eq!(fixed, [glam::DVec3::new(1.0, 2.0, 3.0); 2]);
     let path = file.display();
-    let filmed = positions(&format!("camera: {{file: {{path: '{path}', name: Cam}}}}\nturntable: {{frames: 3}}\n"));
+    let filmed =
+        positions(&format!("camera: {{file: {{path: '{path}', name: Cam}}}}\nturntable: {{frames: 3}}\n"));
     let expected = [0.0, 1.0, 2.0].map(|x| glam::DVec3::new(x, 0.0, 2.0));
     assert!(filmed.iter().zip(expected).all(|(a, b)| (*a - b).length() < 1e-9), "{filmed:?}");
-    assert!(heard.words()[0].contains("the camera's picture is 1.370 as wide as high"), "{:?}", heard.words());
+    assert!(
+        heard.words()[0].contains("the camera's picture is 1.370 as wide as high"),
+        "{:?}",
+        heard.words()
+    );
     let rising = positions("camera: {elevation: 0, elevation_to: 60}\nturntable: {frames: 3, degrees: 0}\n");
     assert!(rising[0].y < rising[1].y && rising[1].y < rising[2].y);
     let blurred = pipeline(&format!("{STILL}camera: {{blur: true}}\nturntable: {{frames: 4}}\n"));
