@@ -10,7 +10,8 @@ impl Run<'_> {
     pub(super) fn converts(&mut self, variant: usize, steps: &[&Step]) -> Result<(), TurntableError> {
         self.stop_if_asked()?;
         let plan = self.plan;
-        let groom = stage::groom(&plan.variants[variant].pipeline, &plan.base, self.reporter, &mut self.store)?;
+        let groom =
+            stage::groom(&plan.variants[variant].pipeline, &plan.base, self.reporter, &mut self.store)?;
         for step in steps {
             self.stop_if_asked()?;
             let path = self.path(step);
