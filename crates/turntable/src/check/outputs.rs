@@ -9,7 +9,7 @@ use crate::outputs::sheet_layout;
 use crate::schema::{Codec, Page, Pipeline, Sheet, Video};
 
 /// What the program writes by itself.
-const OWN: [&str; 3] = ["manifest.json", "report.json", "report.html"];
+const OWN: [&str; 3] = ["manifest.jsonl", "report.json", "report.html"];
 
 impl Check<'_> {
     pub(super) fn outputs(&mut self, pipeline: &Pipeline) {
