@@ -55,6 +55,9 @@ fn the_bounds_an_editor_knows_are_those_the_program_holds_to() {
     let faults = |key: &str, value: f64| {
         // Some keys are nothing without another.
         let beside = match key {
+            "groom.sample.length" | "groom.sample.lean" | "groom.sample.curl" | "groom.sample.clump" => {
+                "groom.sample.style=fur"
+            }
             "material.nodes" => "material.field=far",
             "material.redness" | "material.variation.redness" => "material.melanin=0.5",
             "material.variation.hue" => "material.color=[0.5, 0.4, 0.3]",
