@@ -59,7 +59,7 @@ pub(crate) struct Data<'a> {
     pub tone: &'a Tone,
     pub fps: f64,
     pub axes: &'a [Axis],
-    pub passes: &'a [String],
+    pub passes: Vec<&'a String>,
     pub weights: &'a std::collections::BTreeMap<String, f32>,
     pub variants: Vec<Shown<'a>>,
 }
@@ -69,11 +69,24 @@ pub(crate) struct Data<'a> {
 pub(crate) struct Shown<'a> {
     #[serde(flatten)]
     pub variant: &'a Variant,
-    pub frames: &'a [Frame],
+    pub frames: Vec<FrameShown<'a>>,
+}
+
+/// A frame with the layers that are lit.
+#[derive(Serialize)]
+pub(crate) struct FrameShown<'a> {
+    number: u32,
+    facts: &'a [(String, String)],
+    width: u32,
+    height: u32,
+    jpeg: &'a str,
+    alpha: Option<&'a str>,
+    /// One for every pass, null where it is black; null where the frame's passes are not kept.
+    layers: Option<Vec<Option<&'a str>>>,
 }
 
 /// A frame, encoded.
-#[derive(Debug, Serialize)]
+#[derive(Debug)]
 pub(crate) struct Frame {
     pub number: u32,
     pub facts: Vec<(String, String)>,
@@ -81,6 +94,27 @@ pub(crate) struct Frame {
     pub height: u32,
     pub jpeg: String,
     pub alpha: Option<String>,
-    /// One for every pass, null where it is black; null where the frame's passes are not kept.
+    /// One for every pass of the page, none where it is black; none at all where they are not kept.
     pub layers: Option<Vec<Option<String>>>,
+}
+
+impl Frame {
+    /// The layer of a pass, if it is kept and not black.
+    pub fn layer(&self, pass: usize) -> Option<&str> {
+        self.layers.as_ref()?.get(pass)?.as_deref()
+    }
+
+    /// The frame with those of its layers that are asked for.
+    pub fn shown(&self, passes: &[usize]) -> FrameShown<'_> {
+        let layers = |_: &Vec<_>| passes.iter().map(|&pass| self.layer(pass)).collect();
+        FrameShown {
+            number: self.number,
+            facts: &self.facts,
+            width: self.width,
+            height: self.height,
+            jpeg: &self.jpeg,
+            alpha: self.alpha.as_deref(),
+            layers: self.layers.as_ref().map(layers),
+        }
+    }
 }

@@ -178,16 +178,26 @@ impl Page {
         if let Some(report) = &self.report {
             report.check()?;
         }
-        let variants = self.variants.iter().map(|(variant, frames)| Shown { variant, frames }).collect();
+        // A pass that is black in every frame is no pass to flip to.
+        let is_lit = |pass: &usize| self.frames().any(|frame| frame.layer(*pass).is_some());
+        let lit: Vec<usize> = (0..self.passes.len()).filter(is_lit).collect();
+        let variants = self.variants.iter().map(|(variant, frames)| Shown {
+            variant,
+            frames: frames.iter().map(|frame| frame.shown(&lit)).collect(),
+        });
         let data = Data {
             tone: &self.tone,
             fps: self.fps,
             axes: &self.axes,
-            passes: &self.passes,
+            passes: lit.iter().filter_map(|&pass| self.passes.get(pass)).collect(),
             weights: &self.weights,
-            variants,
+            variants: variants.collect(),
         };
         Ok(html::write(self, &serde_json::to_string(&data)?))
+    }
+
+    fn frames(&self) -> impl Iterator<Item = &Frame> {
+        self.variants.iter().flat_map(|(_, frames)| frames)
     }
 
     /// Writes the page, whole or not at all, and returns its size in bytes.

@@ -1,7 +1,9 @@
 //! Frames before something.
 
 use glam::Vec3;
-use hair_render::{Backdrop, Frame, Preview, ToneMapping, tone_map, tone_map_over};
+use hair_render::{
+    Backdrop, Frame, Preview, ToneMapping, tone_map, tone_map_deep, tone_map_over, tone_map_over_deep,
+};
 
 use crate::{Background, Fit, Meaning};
 
@@ -41,6 +43,28 @@ pub fn shown(frame: &Frame, background: Option<&Background>, fit: Fit, mapping: 
         }
         Some(Background::Plate(plate)) => {
             tone_map_over(frame, mapping, &plate.fitted(frame.width, frame.height, fit).pixels)
+        }
+    }
+}
+
+/// As [`shown`], with sixteen bits a channel: red, green, blue, straight alpha, row by row from the upper left.
+#[must_use]
+pub fn shown_deep(
+    frame: &Frame,
+    background: Option<&Background>,
+    fit: Fit,
+    mapping: &ToneMapping,
+) -> Vec<u16> {
+    match background {
+        None => tone_map_deep(frame, mapping),
+        Some(&Background::Color(color)) => {
+            tone_map_deep(frame, &ToneMapping { backdrop: Backdrop::Solid(color), ..*mapping })
+        }
+        Some(light @ Background::Plate(plate)) if plate.meaning() == Meaning::Light => {
+            tone_map_deep(&behind(frame, light, fit), mapping)
+        }
+        Some(Background::Plate(plate)) => {
+            tone_map_over_deep(frame, mapping, &plate.fitted(frame.width, frame.height, fit).pixels)
         }
     }
 }

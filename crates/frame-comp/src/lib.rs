@@ -22,12 +22,14 @@ mod error;
 mod fit;
 mod plate;
 mod residual;
+mod smaller;
 mod weights;
 
 pub use background::Background;
-pub use comp::{behind, shown};
+pub use comp::{behind, shown, shown_deep};
 pub use error::CompError;
 pub use fit::{Fit, Fitted};
 pub use plate::{Meaning, Plate};
 pub use residual::{Residual, residual};
+pub use smaller::{smaller, smaller_size};
 pub use weights::{Weights, reweigh};

@@ -1,7 +1,9 @@
 //! Passes re-weighed and plates put behind, against sums done by hand.
 #![allow(clippy::unwrap_used)]
 
-use frame_comp::{Background, CompError, Fit, Meaning, Plate, Weights, behind, residual, reweigh, shown};
+use frame_comp::{
+    Background, CompError, Fit, Meaning, Plate, Weights, behind, residual, reweigh, shown, smaller,
+};
 use glam::Vec3;
 use hair_render::{Aov, Backdrop, Curve, Frame, FrameReport, Preview, ToneMapping, tone_map};
 use proptest::prelude::*;
@@ -198,4 +200,18 @@ fn a_png_behind_is_seen_as_it_is_and_light_is_exposed_with_the_frame() {
     let half = frame(1, 1, vec![(Aov::R, vec![Vec3::splat(0.25)])], vec![0.5]);
     let over = behind(&half, &light, Fit::Fill);
     assert_eq!((over.beauty[0], over.alpha[0]), (Vec3::splat(0.25 + 0.1 * 0.5), 1.0));
+}
+
+#[test]
+fn a_smaller_frame_holds_as_much_light_and_still_adds_up() {
+    let pixels =
+        |k: usize| (0..60).map(|i| Vec3::new((i * k % 7) as f32, (i % 5) as f32, 1.0)).collect::<Vec<_>>();
+    let alpha = (0..60).map(|i| (i % 4) as f32 / 3.0).collect();
+    let large = frame(10, 6, vec![(Aov::R, pixels(3)), (Aov::Tt, pixels(5))], alpha);
+    let small = smaller(&large, 5);
+    assert_eq!((small.width, small.height), (5, 3));
+    let sum = |frame: &Frame| frame.beauty.iter().sum::<Vec3>();
+    assert!((sum(&large) - sum(&small) * 4.0).abs().max_element() < 1e-2);
+    assert!(residual(&small).relative < 1e-6);
+    assert_eq!(smaller(&large, 10), large);
 }

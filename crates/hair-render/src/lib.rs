@@ -120,4 +120,6 @@ pub use shutter::{Shutter, ShutterOffset};
 pub use shutter_shape::ShutterShape;
 pub use studio::{STUDIO_WIDTH, write_studio};
 pub use table_use::TableUse;
-pub use tone_map::{Backdrop, Curve, Preview, ToneMapping, tone_map, tone_map_deep, tone_map_over};
+pub use tone_map::{
+    Backdrop, Curve, Preview, ToneMapping, tone_map, tone_map_deep, tone_map_over, tone_map_over_deep,
+};

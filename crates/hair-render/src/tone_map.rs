@@ -70,7 +70,14 @@ pub fn tone_map_over(frame: &Frame, mapping: &ToneMapping, behind: &[Vec3]) -> P
 /// As [`tone_map`], with sixteen bits a channel: red, green, blue, alpha, row by row from the upper left.
 #[must_use]
 pub fn tone_map_deep(frame: &Frame, mapping: &ToneMapping) -> Vec<u16> {
-    shown(frame, mapping, &[]).flat_map(|pixel| pixel.map(|v| (v * 65535.0 + 0.5) as u16)).collect()
+    shown(frame, mapping, &[]).flat_map(|pixel| pixel.map(unit_word)).collect()
+}
+
+/// As [`tone_map_over`], with sixteen bits a channel.
+#[must_use]
+pub fn tone_map_over_deep(frame: &Frame, mapping: &ToneMapping, behind: &[Vec3]) -> Vec<u16> {
+    let mapping = ToneMapping { backdrop: Backdrop::Solid(Vec3::ZERO), ..*mapping };
+    shown(frame, &mapping, behind).flat_map(|pixel| pixel.map(unit_word)).collect()
 }
 
 /// Every pixel in sRGB with straight alpha, 0..1; `behind` stands in for a backdrop of one colour.
@@ -145,6 +152,10 @@ fn neutral(mut color: Vec3) -> Vec3 {
 fn srgb(linear: f32) -> f32 {
     let v = linear.clamp(0.0, 1.0);
     if v <= 0.003_130_8 { 12.92 * v } else { 1.055 * v.powf(1.0 / 2.4) - 0.055 }
+}
+
+fn unit_word(v: f32) -> u16 {
+    (v.clamp(0.0, 1.0) * 65535.0 + 0.5) as u16
 }
 
 fn unit_byte(v: f32) -> u8 {

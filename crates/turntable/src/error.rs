@@ -80,6 +80,21 @@ pub enum TurntableError {
         /// What is wrong with it.
         reason: String,
     },
+    /// Frames could not be put together as `comp` says.
+    #[error("comp: {0}")]
+    Comp(#[from] frame_comp::CompError),
+    /// A film could not be made.
+    #[error(transparent)]
+    Video(#[from] video_encode::VideoError),
+    /// A film that is required cannot be made without ffmpeg.
+    #[error("{}: a film needs ffmpeg, which is neither $FFMPEG nor in PATH; install it, or leave `required` out", path.display())]
+    NoFfmpeg {
+        /// The film.
+        path: PathBuf,
+    },
+    /// The page could not be made.
+    #[error(transparent)]
+    Page(#[from] flip_page::PageError),
     /// The error report could not be written down.
     #[error(transparent)]
     Report(#[from] error_report::ReportError),

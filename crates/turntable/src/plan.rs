@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use crate::digest::{Digest, Ingredients, Memory};
 use crate::expand::{Expanded, Variant, expand};
 use crate::manifest::{self, Manifest};
-use crate::outputs::{self, Wanted};
+use crate::outputs::{self, Asked, Wanted};
 use crate::stage::{ingredients, views};
 use crate::stamp::Stamp;
 use crate::there::There;
@@ -188,10 +188,12 @@ impl Plan {
             }
             frames.extend(self.look_at_frames(index, &groom)?);
         }
+        let of = Asked { base: &self.base, variants: &self.variants, frames: &frames };
+        let wanted = outputs::wanted(&of)?;
         self.inputs = memory.inputs();
         drop(memory);
         let is_there = |f: &Step| self.there.digest(&f.output) == Some(f.digest.as_str());
-        let after = outputs::wanted(&self.variants, &frames).into_iter().map(|wanted| {
+        let after = wanted.into_iter().map(|wanted| {
             let Wanted { variant, kind, output, digest, needs } = wanted;
             let asked = self.is_asked(Phase::Outputs, variant);
             let mut step = self.made(manifest, variant, kind, output, digest, asked);

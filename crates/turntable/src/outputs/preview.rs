@@ -1,30 +1,34 @@
 //! A frame as a PNG, beside its EXR.
 
-use super::{Finished, Wanted};
+use super::look::Look;
+use super::{Asked, Finished, Wanted};
 use crate::digest::Ingredients;
-use crate::expand::Variant;
-use crate::{State, Step, StepKind, TurntableError, frame_file, stage};
+use crate::{State, Step, StepKind, TurntableError};
 
-pub(super) fn wanted(variants: &[Variant], frames: &[Step]) -> Vec<Wanted> {
-    let of = |(index, frame): (usize, &Step)| {
-        let StepKind::Frame { number, .. } = frame.kind else { return None };
-        let tone = &variants[frame.variant?].pipeline.tone;
-        let is_wanted = tone.frames && frame.state != State::NotAsked;
-        is_wanted.then(|| Wanted {
+pub(super) fn wanted(asked: &Asked) -> Result<Vec<Wanted>, TurntableError> {
+    let mut wanted = Vec::new();
+    for (index, frame) in asked.frames.iter().enumerate() {
+        let StepKind::Frame { number, .. } = frame.kind else { continue };
+        let Some(variant) = frame.variant.and_then(|v| asked.variants.get(v)) else { continue };
+        if !variant.pipeline.tone.frames || frame.state == State::NotAsked {
+            continue;
+        }
+        let digest = Look::added(Ingredients::of("preview"), &variant.pipeline, asked.base)?;
+        wanted.push(Wanted {
             variant: frame.variant,
             kind: StepKind::Preview { number },
             output: frame.output.with_extension("png"),
-            digest: Ingredients::of("preview").settings(tone).digest(&frame.digest).finish(),
+            digest: digest.digest(&frame.digest).finish(),
             needs: vec![index],
-        })
-    };
-    frames.iter().enumerate().filter_map(of).collect()
+        });
+    }
+    Ok(wanted)
 }
 
 pub(super) fn make(step: &Step, finished: &Finished) -> Result<bool, TurntableError> {
     let Some(variant) = step.variant.and_then(|index| finished.variants.get(index)) else { return Ok(false) };
+    let look = Look::of(&variant.pipeline, finished.base)?;
     let path = finished.output.join(&step.output);
-    let frame = frame_file::read_beauty(&path.with_extension("exr"))?;
-    hair_render::tone_map(&frame, &stage::tone_mapping(&variant.pipeline.tone)).write_png(&path)?;
+    look.shown(&look.read(&path.with_extension("exr"))?).write_png(&path)?;
     Ok(true)
 }

@@ -2,50 +2,77 @@
 
 use hair_render::{ContactSheet, SheetLayout};
 
-use super::{Finished, Wanted};
+use super::look::Look;
+use super::{Asked, Finished, Wanted, facts};
 use crate::digest::Ingredients;
 use crate::expand::Variant;
-use crate::schema::{Render, Sheet};
-use crate::{Event, Step, StepKind, TurntableError, frame_file, stage};
+use crate::schema::{Caption, Render, Sheet};
+use crate::{Event, Step, StepKind, TurntableError};
 
 /// The layout `sheet` asks for, of frames as `render` makes them.
 pub(crate) fn layout(sheet: &Sheet, render: &Render) -> SheetLayout {
     let Sheet { columns, gap, labels, .. } = *sheet;
-    SheetLayout { cell: (render.width, render.height), columns, gap, labels, caption_lines: 0 }
+    let named = sheet.captions.contains(&Caption::Variant);
+    let figures = sheet.captions.iter().any(|caption| *caption != Caption::Variant);
+    let caption_lines = u32::from(named) + u32::from(figures);
+    SheetLayout { cell: (render.width, render.height), columns, gap, labels, caption_lines }
 }
 
-pub(super) fn wanted(variants: &[Variant], frames: &[Step]) -> Option<Wanted> {
-    let pipeline = &variants.first()?.pipeline;
-    let sheet = pipeline.sheet.as_ref()?;
-    let digest = Ingredients::of("sheet").settings(&pipeline.tone).settings(sheet);
-    let digest = frames.iter().fold(digest, |digest, frame| digest.digest(&frame.digest)).finish();
-    let needs = (0..frames.len()).collect();
-    Some(Wanted { variant: None, kind: StepKind::Sheet, output: sheet.file.clone(), digest, needs })
+/// The layout for all variants: cells in which the largest of their frames has room; where nothing else is said, a
+/// row for every variant, or, of variants with one frame, a row for all settings of the last axis.
+fn layout_of(sheet: &Sheet, variants: &[Variant], frames: usize) -> Option<SheetLayout> {
+    let first = variants.first()?;
+    let mut layout = layout(sheet, &first.pipeline.render);
+    for Variant { pipeline, .. } in variants {
+        layout.cell = (layout.cell.0.max(pipeline.render.width), layout.cell.1.max(pipeline.render.height));
+    }
+    if layout.columns.is_none() && variants.len() > 1 {
+        let last = |variant: &Variant| variant.axes.last().cloned();
+        let settings = variants.iter().map(last).collect::<std::collections::BTreeSet<_>>().len();
+        let each = frames / variants.len();
+        layout.columns = u32::try_from(if each > 1 { each } else { settings }).ok();
+    }
+    Some(layout)
+}
+
+pub(super) fn wanted(asked: &Asked) -> Result<Option<Wanted>, TurntableError> {
+    let Some(sheet) = asked.variants.first().and_then(|v| v.pipeline.sheet.as_ref()) else { return Ok(None) };
+    let mut digest = Ingredients::of("sheet").settings(sheet);
+    for Variant { id, pipeline, .. } in asked.variants {
+        digest = Look::added(digest, pipeline, asked.base)?;
+        if sheet.captions.contains(&Caption::Variant) {
+            digest = digest.word(id);
+        }
+    }
+    let digest = asked.frames.iter().fold(digest, |digest, frame| digest.digest(&frame.digest)).finish();
+    let needs = (0..asked.frames.len()).collect();
+    Ok(Some(Wanted { variant: None, kind: StepKind::Sheet, output: sheet.file.clone(), digest, needs }))
 }
 
 pub(super) fn make(step: &Step, finished: &Finished) -> Result<bool, TurntableError> {
     let Some(Variant { pipeline, .. }) = finished.variants.first() else { return Ok(false) };
     let Some(settings) = &pipeline.sheet else { return Ok(false) };
     finished.reporter.event(&Event::Stage("making the contact sheet"));
-    let mapping = stage::tone_mapping(&pipeline.tone);
-    let count = finished.frames.len() as u32;
+    let looks: Result<Vec<Look>, _> =
+        finished.variants.iter().map(|variant| Look::of(&variant.pipeline, finished.base)).collect();
+    let looks = looks?;
+    let backdrop = looks.first().map_or([0; 3], Look::backdrop);
+    let count = finished.frames.len();
     // The pipeline's check keeps sheets far below what cannot be.
-    let Some(mut sheet) =
-        ContactSheet::new(layout(settings, &pipeline.render), count, background_bytes(&mapping))
+    let Some(mut sheet) = layout_of(settings, finished.variants, count)
+        .and_then(|layout| ContactSheet::new(layout, u32::try_from(count).ok()?, backdrop))
     else {
         return Ok(false);
     };
-    for (number, frame) in (1..).zip(finished.frames) {
-        let picture = frame_file::read_beauty(&finished.output.join(&frame.output))?;
-        sheet.place(number, &hair_render::tone_map(&picture, &mapping));
+    for (cell, frame) in (1..).zip(finished.frames) {
+        let variant =
+            frame.variant.and_then(|index| Some((finished.variants.get(index)?, looks.get(index)?)));
+        let (Some((variant, look)), StepKind::Frame { number, .. }) = (variant, frame.kind) else { continue };
+        let path = finished.output.join(&frame.output);
+        sheet.place(cell, &look.shown(&look.read(&path)?));
+        let lines = facts::lines(&settings.captions, variant, number, &path);
+        sheet.caption(cell, &lines.iter().map(String::as_str).collect::<Vec<_>>());
     }
     sheet.finish().write_png(&finished.output.join(&step.output))?;
     Ok(true)
-}
-
-/// The background as it comes out of the tone mapping.
-fn background_bytes(mapping: &hair_render::ToneMapping) -> [u8; 3] {
-    let empty = frame_file::unmeasured((1, 1), vec![glam::Vec3::ZERO], vec![0.0]);
-    let rgba = hair_render::tone_map(&empty, mapping).rgba;
-    [rgba[0], rgba[1], rgba[2]]
 }

@@ -13,6 +13,8 @@ impl Run<'_> {
         let plan = self.plan;
         let frames: Vec<&Step> = plan.frames().collect();
         let finished = Finished {
+            name: &plan.name,
+            base: &plan.base,
             output: &plan.output,
             variants: &plan.variants,
             frames: &frames,
