@@ -30,6 +30,14 @@ pub enum CompError {
         /// What was given.
         found: String,
     },
+    /// Outputs cannot be named as asked.
+    #[error("{} {reason}", path.display())]
+    Naming {
+        /// The frame or the output.
+        path: PathBuf,
+        /// What is wrong with it.
+        reason: String,
+    },
     /// A file could not be read.
     #[error("{}: {source}", path.display())]
     Io {
