@@ -28,5 +28,5 @@ mod write;
 
 pub use error::WholeFileError;
 pub use live::abandon_all;
-pub use stale::clear_stale;
+pub use stale::{clear_stale, clear_stale_in};
 pub use write::{WholeFile, write_whole};

@@ -29,6 +29,28 @@ pub fn clear_stale(path: impl AsRef<Path>) -> usize {
     entries.flatten().filter(stale).filter(|entry| fs::remove_file(entry.path()).is_ok()).count()
 }
 
+/// Removes temporary files that killed processes left in `folder`, whatever they were to become; returns how many.
+///
+/// For folders that a program looks after as a whole: one look where [`clear_stale`] takes one for every file. What
+/// counts as stale is the same.
+pub fn clear_stale_in(folder: impl AsRef<Path>) -> usize {
+    let Ok(entries) = fs::read_dir(folder) else { return 0 };
+    let stale = |entry: &DirEntry| {
+        let name = entry.file_name().to_string_lossy().into_owned();
+        prefix_of(&name)
+            .and_then(|prefix| Owner::of(&name, prefix))
+            .is_some_and(|owner| owner.is_gone().unwrap_or_else(|| is_old(entry)))
+    };
+    entries.flatten().filter(stale).filter(|entry| fs::remove_file(entry.path()).is_ok()).count()
+}
+
+/// What stands before host, process and random letters in the temporary name of any file.
+fn prefix_of(file_name: &str) -> Option<&str> {
+    let stem = file_name.strip_suffix(".tmp").filter(|stem| stem.starts_with('.'))?;
+    let (at, _) = stem.rmatch_indices('.').nth(2).filter(|(at, _)| *at > 1)?;
+    file_name.get(..=at)
+}
+
 /// Who began a temporary file.
 #[derive(Debug, PartialEq, Eq)]
 struct Owner<'a> {
@@ -74,6 +96,35 @@ mod tests {
         fs::write(path, b"x").unwrap();
         let file = fs::File::options().write(true).open(path).unwrap();
         file.set_modified(SystemTime::now() - age).unwrap();
+    }
+
+    #[test]
+    fn a_folder_is_swept_at_once() {
+        let folder = tempfile::tempdir().unwrap();
+        let Some(host) = host() else { return };
+        let at = |name: &str| folder.path().join(name);
+        let gone = [
+            format!(".frame.0001.exr.{host}.4294967295.aBc123.tmp"),
+            format!("..frame.0001.part.exr.{host}.4294967295.aBc123.tmp"),
+            format!(".x.{host}.4294967295.aBc123.tmp"),
+        ];
+        let kept = [
+            format!(".frame.exr.{host}.{}.aBc123.tmp", std::process::id()),
+            ".frame.exr.other-host.4294967295.aBc123.tmp".to_owned(),
+            format!("frame.exr.{host}.4294967295.aBc123.tmp"),
+            format!(".{host}.4294967295.aBc123.tmp"),
+            ".a.tmp".to_owned(),
+            ".tmp".to_owned(),
+            "....tmp".to_owned(),
+        ];
+        gone.iter().chain(&kept).for_each(|name| put(&at(name), Duration::ZERO));
+        let cleared = clear_stale_in(folder.path());
+        assert!(kept.iter().all(|name| at(name).exists()));
+        if Path::new("/proc/self").exists() {
+            assert_eq!(cleared, gone.len());
+            assert!(gone.iter().all(|name| !at(name).exists()));
+        }
+        assert_eq!(clear_stale_in(folder.path().join("none")), 0);
     }
 
     #[test]

@@ -15,6 +15,7 @@ impl Run<'_> {
             std::fs::create_dir_all(folder).map_err(|e| TurntableError::io(folder, "make the folder", e))
         };
         make(output)?;
+        whole_file::clear_stale_in(output);
         let mut seen = BTreeSet::from([output.clone()]);
         for step in self.plan.steps().iter().filter(|s| s.state != State::NotAsked) {
             let path = self.path(step);
@@ -23,10 +24,9 @@ impl Run<'_> {
                 if step.state != State::UpToDate {
                     make(folder)?;
                 }
+                // What is up to date now may have been half written by others before.
+                whole_file::clear_stale_in(folder);
                 seen.insert(folder.to_owned());
-            }
-            if step.state != State::UpToDate {
-                whole_file::clear_stale(&path);
             }
             if super::is_frame(step) && step.state == State::UpToDate {
                 // A slower process may have left it.
