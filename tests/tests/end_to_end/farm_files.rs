@@ -12,8 +12,8 @@ pub const PIPELINE: &str = "version: 1
 name: it's \"two\" lights
 matrix:
   light:
-    warm: {lights.environment.constant: [1, 0.9, 0.8]}
-    cold: {lights.environment.constant: [0.7, 0.8, 1]}
+    warm: {lights: {environment: {constant: [1, 0.9, 0.8]}}}
+    cold: {lights: {environment: {constant: [0.7, 0.8, 1]}}}
 groom: {sample: {style: wavy, strands: 40, points: 6}}
 convert: [groom.txt]
 lights: {environment: {constant: [1, 1, 1]}}
@@ -172,7 +172,7 @@ fn slips_are_told_and_write_nothing() {
     };
     told(&[], "--openjd");
     told(&["--commands", "new", "--chunk", "0"], "--chunk");
-    told(&["--commands", "new", "--seconds", "-1"], "--seconds");
+    told(&["--commands", "new", "--seconds", "0"], "seconds a frame is 0");
     told(&["--commands", "new", "--frames", "7-9"], "7-9");
     told(&["--commands", "new", "--only", "light=blue"], "blue");
     told(&["--commands", "new", "--steps", "frames"], "--steps");

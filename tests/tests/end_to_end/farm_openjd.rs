@@ -98,7 +98,7 @@ fn words_arrive_as_they_were_exported() {
         command: vec![text(&python), text(&recorder), text(&log)],
         settings: words.clone(),
         variants: (0..3).map(variant).collect(),
-        ..FarmJob::new(word(300), format!("/show/{}.yaml", word(301)), format!("/show/{}", word(302)), 1..=5)
+        ..FarmJob::new(word(300), format!("/show/{}.yaml", word(301)), format!("/show/{}", word(302)), 1..=6)
     }
     .with_chunk(3)
     .with_after("Sheet", &["--last", &word(303)], When::AllDone);
@@ -116,12 +116,12 @@ fn words_arrive_as_they_were_exported() {
     for variant in &job.variants {
         let axes = variant.axes.iter();
         let only: Vec<String> = axes.flat_map(|(a, n)| ["--only".to_owned(), format!("{a}={n}")]).collect();
-        for frames in ["1-3", "4-5"] {
+        for frames in ["1-3", "4-6"] {
             let end = ["--progress", "openjd", "--frames", frames].map(str::to_owned);
             expected.push([&base[..], &only, &end].concat());
         }
     }
-    let end = ["--last", &word(303), "--frames", "1-5"].map(str::to_owned);
+    let end = ["--last", &word(303), "--frames", "1-6"].map(str::to_owned);
     expected.push([&base[..], &end].concat());
     assert_eq!(calls, expected);
 }
