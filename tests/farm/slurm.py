@@ -251,7 +251,7 @@ def trial(arguments: argparse.Namespace, folder: Path) -> bool:
             capture_output=True, text=True,
         ).stdout
         say(said.strip().replace("\n", "; "))
-        killed = kill_in_mid_job(cluster, out)
+        killed = kill_in_mid_job(cluster, turntable.name, out)
         say(f"n2 killed after {time.monotonic() - start:.1f} s: {killed} processes")
         states = wait_for_the_end(cluster, arguments.patience)
         seconds = time.monotonic() - start
@@ -260,10 +260,12 @@ def trial(arguments: argparse.Namespace, folder: Path) -> bool:
     return verdict(states, undisturbed, out, seconds, folder)
 
 
-def kill_in_mid_job(cluster: Cluster, out: Path) -> int:
+def kill_in_mid_job(cluster: Cluster, program: str, out: Path) -> int:
     """Waits until frames are being written and the second node renders, then kills it."""
     def renders() -> bool:
-        return any(comm(pid) == "turntable" for pid in cluster.processes_of("n2")) and any(out.rglob("frame.*.exr"))
+        # The kernel keeps 15 letters of a name.
+        is_rendering = any(comm(pid) == program[:15] for pid in cluster.processes_of("n2"))
+        return is_rendering and any(out.rglob("frame.*.exr"))
     cluster.wait("the second node to render", renders, 120)
     return cluster.kill_node("n2")
 

@@ -203,8 +203,9 @@ fn spare_inputs(files: &[(PathBuf, String)], job: &FarmJob) -> anyhow::Result<()
 fn tell(job: &FarmJob, args: &ExportArgs) {
     let variants = job.variants.len().max(1);
     let tasks = variants * job.frames.len().div_ceil(job.chunk.max(1) as usize);
+    let of = if variants > 1 { format!(" of {variants} variants") } else { String::new() };
     let mut lines = vec![format!(
-        "{}: {} frames of {variants} variants in {tasks} tasks of up to {} frames",
+        "{}: {} frames{of} in {tasks} tasks of up to {} frames",
         job.name,
         job.frames.len(),
         job.chunk

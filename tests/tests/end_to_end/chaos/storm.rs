@@ -91,26 +91,33 @@ impl Storm {
             std::thread::sleep(Duration::from_secs_f64(alone * 0.5 * self.random(kills, "moment")));
             let victim = (self.random(kills, "victim") * f64::from(self.renderers)) as usize;
             let child = &mut children[victim.min(self.renderers as usize - 1)];
-            if let Some(status) = child.try_wait().unwrap() {
-                let mut words = String::new();
-                child.stderr.as_mut().unwrap().read_to_string(&mut words).unwrap();
-                assert!(status.success(), "a renderer gave up: {status}: {words}");
-                // All is made already: a part of it goes, as when somebody asks for it anew.
-                let frame = 1 + (self.random(kills, "frame") * f64::from(self.frames)) as u32;
-                let _ = std::fs::remove_file(bench.out().join(format!("frames/frame.{frame:04}.exr")));
-            }
-            child.kill().unwrap();
-            child.wait().unwrap();
-            kills += 1;
-            *child = start_one(bench);
-            runs += 1;
+            let Some(status) = child.try_wait().unwrap() else {
+                end(child);
+                kills += 1;
+                *child = start_one(bench);
+                runs += 1;
+                continue;
+            };
+            let mut words = String::new();
+            child.stderr.as_mut().unwrap().read_to_string(&mut words).unwrap();
+            assert!(status.success(), "a renderer gave up: {status}: {words}");
+            // All is made. Once nobody is at it any more, a part of it goes, and all begin again.
+            children.iter_mut().for_each(end);
+            let frame = 1 + (self.random(kills, "frame") * f64::from(self.frames)) as u32;
+            let _ = std::fs::remove_file(bench.out().join(format!("frames/frame.{frame:04}.exr")));
+            children = (0..self.renderers).map(|_| start_one(bench)).collect();
+            kills += self.renderers - 1;
+            runs += self.renderers;
         }
-        for mut child in children {
-            child.kill().unwrap();
-            child.wait().unwrap();
-        }
+        children.iter_mut().for_each(end);
         (kills + self.renderers, runs)
     }
+}
+
+/// With SIGKILL, if it has not ended.
+fn end(child: &mut Child) {
+    child.kill().unwrap();
+    child.wait().unwrap();
 }
 
 fn start_one(bench: &Bench) -> Child {
