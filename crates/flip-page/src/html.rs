@@ -93,7 +93,7 @@ const LOOK: &str = r#"<div class="look">
 <div><button type="button" id="compare" aria-pressed="false">Compare side by side</button></div>
 <div class="menu" id="menu1" hidden="hidden"></div></div>
 <div id="weigh"><h2>Passes</h2><div id="passes"></div>
-<div class="pass exposure"><label for="stops">exposure</label><input type="range" id="stops" min="-4" max="4" step="0.1"/><output for="stops" id="said-stops"></output></div>
+<div class="pass exposure"><label for="stops">stops</label><input type="range" id="stops" min="-4" max="4" step="0.1"/><output for="stops" id="said-stops"></output></div>
 <p><button type="button" id="reset">Reset</button></p></div>
 </aside>
 </div>

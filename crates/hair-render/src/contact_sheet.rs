@@ -68,6 +68,11 @@ impl ContactSheet {
 
     /// Puts cell `number` (from 1) in its place. What lies outside the sheet is left out.
     pub fn place(&mut self, number: u32, cell: &Preview) {
+        self.place_labelled(number, number, cell);
+    }
+
+    /// As [`ContactSheet::place`], with another number in its corner, such as a frame's.
+    pub fn place_labelled(&mut self, number: u32, label: u32, cell: &Preview) {
         let Some((left, top)) = self.corner(number) else { return };
         let row_bytes = cell.width as usize * 4;
         for (y, row) in cell.rgba.chunks_exact(row_bytes.max(1)).enumerate() {
@@ -77,7 +82,7 @@ impl ContactSheet {
             }
         }
         if self.layout.labels {
-            self.label(number, left, top);
+            self.label(label, left, top);
         }
     }
 

@@ -70,6 +70,8 @@ impl Plan {
             (pipeline.lights.area.is_empty(), "area lights", "the pipeline names none"),
             (pipeline.render.aovs.is_empty(), "light passes", "`render.aovs` asks for none"),
             (pipeline.sheet.is_none(), "contact sheet", "the pipeline has no `sheet`"),
+            (pipeline.video.is_empty(), "film", "the pipeline has no `video`"),
+            (pipeline.page.is_none(), "page", "the pipeline has no `page`"),
             (!pipeline.tone.frames, "PNG frames", "`tone.frames` is off"),
             (pipeline.convert.is_empty(), "converted files", "`convert` lists none"),
         ];

@@ -99,7 +99,7 @@ function showPasses() {
     byId(`said${i}`).textContent = "\u00d7 " + weight.toFixed(2);
   });
   byId("stops").value = state.stops;
-  byId("said-stops").textContent = (state.stops > 0 ? "+" : "") + state.stops.toFixed(1) + " stops";
+  byId("said-stops").textContent = (state.stops > 0 ? "+" : "") + state.stops.toFixed(1);
 }
 
 let playing = null;

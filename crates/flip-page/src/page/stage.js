@@ -51,6 +51,8 @@ function sized(canvas, frame) {
   if (canvas.width !== frame.width || canvas.height !== frame.height) {
     canvas.width = frame.width;
     canvas.height = frame.height;
+    canvas.style.setProperty("--wide", frame.width);
+    canvas.style.setProperty("--high", frame.height);
   }
   return canvas.getContext("2d", { willReadFrequently: true });
 }

@@ -69,7 +69,7 @@ pub(super) fn make(step: &Step, finished: &Finished) -> Result<bool, TurntableEr
             frame.variant.and_then(|index| Some((finished.variants.get(index)?, looks.get(index)?)));
         let (Some((variant, look)), StepKind::Frame { number, .. }) = (variant, frame.kind) else { continue };
         let path = finished.output.join(&frame.output);
-        sheet.place(cell, &look.shown(&look.read(&path)?));
+        sheet.place_labelled(cell, number, &look.shown(&look.read(&path)?));
         let lines = facts::lines(&settings.captions, variant, number, &path);
         sheet.caption(cell, &lines.iter().map(String::as_str).collect::<Vec<_>>());
     }

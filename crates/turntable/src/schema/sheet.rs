@@ -11,7 +11,8 @@ use serde::{Deserialize, Serialize};
 pub struct Sheet {
     /// The PNG, in the output folder.
     pub file: PathBuf,
-    /// Pictures in a row; where there is a `matrix`, all of its last axis when absent, else about square.
+    /// Pictures in a row. When absent: about square; where there is a `matrix`, a row for each variant, or, of variants
+    /// with one frame, a row for all settings of the last axis.
     #[schemars(range(min = 1))]
     pub columns: Option<u32>,
     /// Pixels between frames.

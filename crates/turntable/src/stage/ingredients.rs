@@ -15,6 +15,7 @@ pub(crate) fn files(pipeline: &Pipeline, base: &Path) -> Result<Vec<PathBuf>, Tu
         pipeline.groom.file.as_ref(),
         pipeline.lights.environment.as_ref().and_then(|e| e.file.as_ref()),
         pipeline.camera.file.as_ref().map(|file| &file.path),
+        pipeline.comp.plate.as_ref(),
     ];
     let mut files: Vec<PathBuf> = named.into_iter().flatten().map(|input| base.join(input)).collect();
     files.extend(pipeline.material.files(base)?);
