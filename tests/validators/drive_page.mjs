@@ -1,15 +1,15 @@
 // Opens a page in a headless Chromium and does what a list of steps says, speaking the DevTools protocol over
 // a pair of pipes: no port, no other package.
 //
-//   node drive_page.mjs PAGE.html STEPS.json   ->  JSON on stdout: { browser, results, console, requests, version }
+//   node drive_page.mjs PAGE.html STEPS.json [FOLDER]  ->  JSON on stdout: { browser, results, console, requests }
 //
-// STEPS is a list of { eval: "JavaScript that may await" }, { key: "ArrowRight" }, { drag: [x0, y0, x1, y1] },
+// STEPS is a list of { eval: "JavaScript that may await" }, { key: "ArrowRight" }, { drag: [x0, y0, x1, y1], on: "canvas0" },
 // { wait: "JavaScript that becomes true" }, { screenshot: "file.png", width, height, dark }. Exit 3: no browser.
 //
 // The browser is the one $CHROMIUM names, chromium in PATH, or the one inside the npm package
-// @sparticuz/chromium beside this file's own node_modules (target/npm).
+// @sparticuz/chromium in FOLDER's node_modules (target/npm).
 import { spawn, spawnSync } from "node:child_process";
-import { existsSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { existsSync, mkdtempSync, readFileSync, renameSync, rmSync, writeFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import path from "node:path";
@@ -27,12 +27,31 @@ async function browser() {
   }
   const entry = modules && path.join(modules, "node_modules/@sparticuz/chromium/build/cjs/index.cjs");
   if (!entry || !existsSync(entry)) return null;
-  // So it unpacks and uses the libraries it brings (NSS), as it does where it was made for.
+  const kept = path.join(modules, "chromium-unpacked");
+  if (!existsSync(kept)) await unpack(entry, kept);
+  // It brings the libraries it needs (NSS) and a font.
+  process.env.LD_LIBRARY_PATH = path.join(kept, "al2023/lib");
+  process.env.FONTCONFIG_PATH = path.join(kept, "fonts");
+  return { program: path.join(kept, "chromium"), flags: ["--headless=shell", "--no-zygote", "--in-process-gpu"] };
+}
+
+// Unpacks the browser into a folder of its own, which takes its name when it is whole: several may be at it.
+async function unpack(entry, kept) {
+  const { TMPDIR: before } = process.env;
+  const fresh = mkdtempSync(`${kept}-`);
+  process.env.TMPDIR = fresh;
+  // So it unpacks its libraries too, as it does where it was made for.
   process.env.AWS_EXECUTION_ENV ??= "AWS_Lambda_nodejs22.x";
   const loaded = createRequire(import.meta.url)(entry);
-  const packed = loaded.default ?? loaded;
-  packed.setGraphicsMode = false;
-  return { program: await packed.executablePath(), flags: ["--headless=shell", "--no-zygote", "--in-process-gpu"] };
+  await (loaded.default ?? loaded).executablePath();
+  if (before === undefined) delete process.env.TMPDIR;
+  else process.env.TMPDIR = before;
+  try {
+    renameSync(fresh, kept);
+  } catch {
+    // Another was faster.
+    rmSync(fresh, { recursive: true, force: true });
+  }
 }
 
 const found = await browser();
@@ -134,7 +153,9 @@ async function run() {
       await tab("Input.dispatchKeyEvent", { type: "keyDown", ...key });
       await tab("Input.dispatchKeyEvent", { type: "keyUp", ...key });
     } else if (step.drag !== undefined) {
-      const [x0, y0, x1, y1] = step.drag;
+      // Shares of an element's width and height.
+      const box = await evaluate(`(b=>[b.left,b.top,b.width,b.height])(${step.on}.getBoundingClientRect())`);
+      const [x0, y0, x1, y1] = step.drag.map((share, i) => box[i % 2] + share * box[2 + (i % 2)]);
       const mouse = (type, x, y, buttons) =>
         tab("Input.dispatchMouseEvent", { type, x, y, buttons, button: "left", clickCount: 1 });
       await mouse("mousePressed", x0, y0, 1);

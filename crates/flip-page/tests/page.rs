@@ -180,7 +180,7 @@ fn the_page_shows_what_the_pngs_show_however_it_is_turned_and_weighed() {
         { "key": "ArrowRight" },
         eval("said0.textContent && document.getElementById('said-frame').textContent"), // 17: round
         eval("[window.hit, document.images.length, document.title, fault.textContent]"), // 18
-        { "drag": [500, 300, 560, 300] },
+        { "drag": [0.2, 0.5, 0.7, 0.5], "on": "canvas0" },
         eval("document.getElementById('said-frame').textContent"), // 19
         eval("new Promise(d=>{play.click();setTimeout(()=>{play.click();d(1)},400)})"), // 20
         eval("fetch('http://evil.test/').then(()=>'out',()=>'held')"), // 21, last: it is told on the console
@@ -211,7 +211,7 @@ fn the_page_shows_what_the_pngs_show_however_it_is_turned_and_weighed() {
     assert_eq!(result[16][0], json!("ready-made"));
     assert_eq!(result[17], json!("1 / 4"));
     assert_eq!(result[18], json!([null, 0, EVIL, ""]), "nothing broke out");
-    assert_ne!(result[19], json!("1 / 4"), "dragging turns");
+    assert_eq!(result[19], json!("3 / 4"), "half across the picture is half around");
 
     // Its own policy holds even what somebody types into the console.
     let held = json!([fetch]);
