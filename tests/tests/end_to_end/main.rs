@@ -23,6 +23,7 @@ mod mitsuba_text;
 mod motion_files;
 mod pipelines;
 mod turntable_files;
+mod turntable_outputs;
 mod turntable_schema;
 mod turntable_staleness;
 mod usd_core;
