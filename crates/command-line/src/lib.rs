@@ -25,4 +25,4 @@ pub use numbers::numbers;
 pub use outcome::{Outcome, run};
 pub use progress::{Bar, progress_bar};
 pub use snapshot::{on_snapshot_ask, snapshot_asked};
-pub use words::words;
+pub use words::{say, words};

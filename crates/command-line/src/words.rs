@@ -1,13 +1,20 @@
-//! The command line this program was started with.
+//! The command line this program was started with, and words for whoever started it.
 
 use std::env;
 use std::ffi::OsStr;
+use std::io::Write;
 
 /// The words of the command line, quoted where a shell would ask for it, so that it can be given again.
 /// Names that are not Unicode are written as well as can be.
 #[must_use]
 pub fn words() -> String {
     env::args_os().map(|word| quoted(&word)).collect::<Vec<_>>().join(" ")
+}
+
+/// Says a line on stderr.
+pub fn say(line: &str) {
+    // `eprintln!` would panic when nobody reads stderr any more.
+    let _ = writeln!(std::io::stderr(), "{line}");
 }
 
 fn quoted(word: &OsStr) -> String {

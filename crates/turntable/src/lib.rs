@@ -52,6 +52,6 @@ pub use explain::Remark;
 pub use frames::{FrameRange, FrameRangeError};
 pub use options::{CheckpointEvery, Options, Phase};
 pub use plan::{Plan, State, Step, StepKind};
-pub use reporter::{Event, Reporter, Silent};
+pub use reporter::{Event, Picture, Reporter, Silent};
 pub use strict_yaml::Fault;
 pub use summary::{Failure, FrameLine, Summary};

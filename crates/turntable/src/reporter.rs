@@ -80,15 +80,26 @@ pub trait Reporter: Sync {
         false
     }
 
-    /// Whether [`Reporter::picture`] is waited for; asked after every pass of samples.
+    /// Whether [`Picture::SoFar`] is waited for; asked after every pass of samples.
     fn wants_picture(&self) -> bool {
         false
     }
 
-    /// The frame being rendered, as far as it is. `name` is its path inside the output folder.
-    fn picture(&self, name: &Path, frame: &hair_render::Frame) {
-        let _ = (name, frame);
+    /// The frame being rendered: as far as it is, as it was written to a snapshot, or finished.
+    fn picture(&self, stage: Picture, frame: &hair_render::Frame) {
+        let _ = (stage, frame);
     }
+}
+
+/// What a picture is that a [`Reporter`] is given.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Picture {
+    /// A frame as far as it is, because [`Reporter::wants_picture`].
+    SoFar,
+    /// A snapshot that was asked for.
+    Snapshot,
+    /// A finished frame.
+    Finished,
 }
 
 /// Tells nobody and never stops.

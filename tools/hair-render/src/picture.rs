@@ -14,6 +14,8 @@ use hair_render::{
 };
 use whole_file::clear_stale;
 
+pub use command_line::say;
+
 use crate::args::{Args, Numbers};
 use crate::keeping::part_of;
 use crate::scene::{Described, Moment};
@@ -276,10 +278,4 @@ fn report(args: &Args, frame: &Frame, extra: Extra, output: &Path) -> Result<()>
         std::io::stdout().lock().write_all(json.as_bytes())?;
     }
     Ok(())
-}
-
-/// Says a line on stderr.
-pub fn say(line: &str) {
-    // `eprintln!` would panic when nobody reads stderr any more.
-    let _ = writeln!(std::io::stderr(), "{line}");
 }

@@ -4,11 +4,10 @@ use std::io::{IsTerminal, Write};
 use std::time::{Duration, Instant};
 
 use anyhow::Result;
+use command_line::say;
 use frame_view::{Manner, Picture, Tev, Tile, drawn};
 use glam::Vec3;
 use hair_render::{Backdrop, Frame, ToneMapping, tone_map};
-
-use crate::picture::say;
 
 /// Developing a picture takes time of the render: not more often than this.
 const PAUSE: Duration = Duration::from_secs(1);

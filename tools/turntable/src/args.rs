@@ -155,6 +155,15 @@ pub struct Tell {
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub snapshot: Option<Duration>,
 
+    /// Draw snapshots and finished frames in the terminal
+    #[arg(long)]
+    pub preview: bool,
+
+    /// Show the frame being rendered in a running tev (https://github.com/Tom94/tev) as it comes
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = "127.0.0.1:14158",
+        require_equals = true)]
+    pub display_server: Option<String>,
+
     /// Write the result as JSON to standard output
     #[arg(long)]
     pub json: bool,

@@ -1,22 +1,35 @@
 //! What a run tells: words and a bar for people, lines for farms.
 
 use std::collections::BTreeSet;
-use std::sync::{Mutex, PoisonError};
+use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
-use command_line::{Meter, ProgressStyle};
-use turntable::{Event, Reporter};
+use command_line::Meter;
+use hair_render::Frame;
+use turntable::{Event, Picture, Reporter};
+
+use crate::args::Tell;
+use crate::show::Show;
 
 /// Passes on what a run tells.
 pub struct Teller {
     pub meter: Meter,
     /// Warnings are told once, however many frames and variants they hold for.
     warned: Mutex<BTreeSet<String>>,
+    show: Mutex<Show>,
 }
 
 impl Teller {
-    pub fn new(style: ProgressStyle, label: &str) -> Teller {
-        Teller { meter: Meter::new(style, label), warned: Mutex::new(BTreeSet::new()) }
+    pub fn new(tell: &Tell, label: &str) -> Teller {
+        Teller {
+            meter: Meter::new(tell.progress, label),
+            warned: Mutex::new(BTreeSet::new()),
+            show: Mutex::new(Show::new(tell.display_server.as_deref(), label, tell.preview, 0.0)),
+        }
+    }
+
+    fn show(&self) -> MutexGuard<'_, Show> {
+        self.show.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
@@ -71,5 +84,19 @@ impl Reporter for Teller {
 
     fn snapshot_asked(&self) -> bool {
         command_line::snapshot_asked()
+    }
+
+    fn wants_picture(&self) -> bool {
+        self.show().is_due()
+    }
+
+    fn picture(&self, stage: Picture, frame: &Frame) {
+        let mut show = self.show();
+        if stage != Picture::Snapshot {
+            show.send(frame);
+        }
+        if stage != Picture::SoFar {
+            show.draw(frame);
+        }
     }
 }

@@ -18,7 +18,7 @@ pub fn run(args: &RunArgs) -> anyhow::Result<Outcome> {
     command_line::on_interrupt_ask();
     command_line::on_snapshot_ask();
     let _ = snapshot_asked(); // whoever asked before there was anything to see
-    let teller = Teller::new(args.tell.progress, plan.name());
+    let teller = Teller::new(&args.tell, plan.name());
     let result = plan.run(&teller);
     teller.meter.finish();
     match result {

@@ -10,7 +10,7 @@ use super::{Run, is_due};
 use crate::schema::Precision;
 use crate::stage::{self, Stage, View};
 use crate::stamp::Stamp;
-use crate::{Event, Step, StepKind, TurntableError, frame_file};
+use crate::{Event, Picture, Step, StepKind, TurntableError, frame_file};
 
 /// A frame to be rendered.
 pub(super) struct DueFrame<'a> {
@@ -145,7 +145,6 @@ impl<'a> Run<'a> {
             self.reporter,
             &self.plan.options,
             (self.index, self.of),
-            &frame.step.output,
             (checkpoint.clone(), snapshot.clone()),
             &metadata,
             Left { estimate: &self.estimate, variant, frames: &frames },
@@ -165,6 +164,7 @@ impl<'a> Run<'a> {
                     // Mostly there is none.
                     let _ = std::fs::remove_file(file);
                 }
+                self.reporter.picture(Picture::Finished, &picture);
                 Ok(picture.report)
             }
             Rendered::Stopped(so_far) => {

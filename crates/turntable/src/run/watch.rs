@@ -7,7 +7,7 @@ use std::time::Instant;
 use hair_render::{Metadata, Next, Progress, SoFar};
 
 use super::estimate::Estimate;
-use crate::{CheckpointEvery, Event, Options, Reporter};
+use crate::{CheckpointEvery, Event, Options, Picture, Reporter};
 
 /// Passes the renderer's progress on, and keeps what is rendered when it is time to.
 pub(super) struct Watch<'a> {
@@ -16,8 +16,6 @@ pub(super) struct Watch<'a> {
     /// How many frames came before.
     pub index: u32,
     pub of: u32,
-    /// The frame, inside the output folder.
-    pub output: &'a Path,
     pub checkpoint: PathBuf,
     pub snapshot: PathBuf,
     pub metadata: &'a Metadata,
@@ -45,14 +43,13 @@ impl<'a> Watch<'a> {
         reporter: &'a dyn Reporter,
         options: &'a Options,
         (index, of): (u32, u32),
-        output: &'a Path,
         (checkpoint, snapshot): (PathBuf, PathBuf),
         metadata: &'a Metadata,
         left: Left<'a>,
     ) -> Self {
         let now = Instant::now();
         let kept = Mutex::new(Kept { at: now, spp: 0, snapshot: now });
-        Watch { reporter, options, index, of, output, checkpoint, snapshot, metadata, left, kept }
+        Watch { reporter, options, index, of, checkpoint, snapshot, metadata, left, kept }
     }
 
     fn keep_when_due(&self, so_far: &SoFar, kept: &mut Kept) {
@@ -78,10 +75,11 @@ impl<'a> Watch<'a> {
         }
         let frame = so_far.frame();
         if is_watched {
-            self.reporter.picture(self.output, &frame);
+            self.reporter.picture(Picture::SoFar, &frame);
         }
         if is_asked {
             kept.snapshot = Instant::now();
+            self.reporter.picture(Picture::Snapshot, &frame);
             let folder = self.snapshot.parent().unwrap_or(Path::new("."));
             let made = std::fs::create_dir_all(folder).map_err(|error| error.to_string());
             let written =
