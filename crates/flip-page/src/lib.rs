@@ -5,7 +5,7 @@
 //! page needs no network and no other file, and runs nothing but its own script, whose hash is in its
 //! content security policy.
 //!
-//! Passes are kept as light ([`pack`](mod@crate)'s layers: 8 bits a channel and a scale a pixel), so the page adds and
+//! Passes are kept as light (8 bits a channel and a scale a pixel), so the page adds and
 //! exposes them in linear light and shows what the PNGs show, to 2/255.
 //!
 //! ```
