@@ -54,6 +54,8 @@ mod pieces;
 mod pose;
 #[path = "../src/query.rs"]
 mod query;
+#[path = "common/random.rs"]
+mod random;
 #[path = "../src/search.rs"]
 mod search;
 #[path = "../src/shares.rs"]
@@ -71,13 +73,14 @@ mod walk;
 #[path = "../src/wide_tree.rs"]
 mod wide_tree;
 
-use ball::{Hair, Random, ball};
+use ball::{Hair, ball};
 use fibres::Fibres;
 use meshes::Meshes;
 use moving_packs::MovingPacks;
 use moving_pieces::MovingPieces;
 use pose::Moment;
 use query::Query;
+use random::Random;
 use search::{Candidates, Nearest};
 use shares::Shares;
 use walk::walk;

@@ -20,10 +20,13 @@ mod bounds;
 mod cone_sphere;
 #[path = "../src/line.rs"]
 mod line;
+#[path = "common/random.rs"]
+mod random;
 
-use ball::{Hair, Random, ball};
+use ball::{Hair, ball};
 use cone_sphere::ConeSphere;
 use line::Line;
+use random::Random;
 
 /// Timings of which the best counts.
 const ROUNDS: usize = 4;
