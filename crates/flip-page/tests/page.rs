@@ -34,19 +34,7 @@ fn frame(variant: usize, number: u32) -> Frame {
     };
     let passes: Vec<(Aov, Vec<Vec3>)> = PASSES.into_iter().zip((0..4).map(pass)).collect();
     let beauty = (0..count).map(|i| passes.iter().map(|(_, pixels)| pixels[i]).sum()).collect();
-    let report = FrameReport {
-        seconds: 0.0,
-        spp: 1,
-        seed: 0,
-        threads: 1,
-        samples: 1,
-        closest_rays: 1,
-        shadow_rays: 0,
-        rejected_samples: 0,
-        rel_mse: None,
-        relative_error: None,
-        motion: None,
-    };
+    let report = FrameReport::default();
     Frame { width: SIZE.0, height: SIZE.1, cutout: None, beauty, alpha, passes, report }
 }
 

@@ -33,7 +33,7 @@ impl Frame {
 }
 
 /// What a picture cost and how exact it is.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct FrameReport {
     /// Wall-clock seconds spent rendering (not building the scene), in all runs together.
     pub seconds: f64,

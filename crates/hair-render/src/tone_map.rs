@@ -168,19 +168,7 @@ mod tests {
     use crate::FrameReport;
 
     fn frame(beauty: Vec3, alpha: f32) -> Frame {
-        let report = FrameReport {
-            seconds: 0.0,
-            spp: 1,
-            seed: 0,
-            threads: 1,
-            samples: 1,
-            closest_rays: 1,
-            shadow_rays: 0,
-            rejected_samples: 0,
-            rel_mse: None,
-            relative_error: None,
-            motion: None,
-        };
+        let report = FrameReport::default();
         Frame {
             width: 1,
             height: 1,
