@@ -15,7 +15,8 @@ pub enum Aov {
     Scattered,
     /// ... reflection off a mesh.
     Surface,
-    /// The environment seen directly (black when the background is transparent).
+    /// Light seen directly: the environment (unless the background is transparent), and area lights that the camera
+    /// sees.
     Background,
 }
 

@@ -6,7 +6,8 @@ use crate::RenderError;
 
 /// A rectangle that sends out the same radiance in every direction of its front side.
 ///
-/// It has no body: it shines, but casts no shadow, and the camera does not see it.
+/// It has no body: it shines, but casts no shadow. The camera sees it where `visible_camera` says so; rays that were
+/// scattered meet its light either way, so what it lights does not change.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AreaLight {
     /// Its middle, in world metres.
@@ -19,10 +20,13 @@ pub struct AreaLight {
     pub radiance: Vec3,
     /// Whether the back shines too.
     pub two_sided: bool,
+    /// Whether the camera sees the sides that shine, in front of what is behind them.
+    pub visible_camera: bool,
 }
 
 impl AreaLight {
-    /// A rectangle of `width` x `height` metres at `center` whose front looks at `target`, its width level.
+    /// A rectangle of `width` x `height` metres at `center` whose front looks at `target`, its width level,
+    /// unseen by the camera.
     ///
     /// # Errors
     /// [`RenderError::Argument`] when the target is at the centre, a size is not above 0, or the
@@ -44,6 +48,7 @@ impl AreaLight {
             edge_v: front.cross(level) * height,
             radiance,
             two_sided: false,
+            visible_camera: false,
         };
         light.check()?;
         Ok(light)
@@ -79,6 +84,7 @@ pub(crate) struct Rectangle {
     area: f32,
     radiance: Vec3,
     two_sided: bool,
+    pub visible_camera: bool,
 }
 
 /// A point of light as seen from a place: where, how bright, how likely.
@@ -102,6 +108,7 @@ impl Rectangle {
             area: across.length(),
             radiance: light.radiance,
             two_sided: light.two_sided,
+            visible_camera: light.visible_camera,
         }
     }
 

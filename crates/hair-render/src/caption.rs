@@ -73,13 +73,23 @@ impl Caption {
 /// `line` in letters that the fonts have, at most `room` of them; three dots for what is left out, fewer where
 /// not even those find room.
 fn fitted(line: &str, room: usize) -> String {
-    let known = |c: char| if c.is_control() || u32::from(c) > 0xff { '?' } else { c };
+    let known = |c: char| if is_known(c) { c } else { '?' };
     let letters: Vec<char> = line.replace('\u{2026}', "...").chars().map(known).collect();
     if letters.len() <= room {
         return letters.into_iter().collect();
     }
     let dots = room.min(3);
     letters[..room - dots].iter().copied().chain(std::iter::repeat_n('.', dots)).collect()
+}
+
+/// Whether the fonts have that letter.
+fn is_known(c: char) -> bool {
+    !c.is_control() && u32::from(c) <= 0xff
+}
+
+/// The first letter of `line` that the fonts do not have.
+pub(crate) fn unknown_in(line: &str) -> Option<char> {
+    line.chars().find(|&c| !is_known(c) && c != '\u{2026}')
 }
 
 /// What the letters are drawn on.
@@ -131,6 +141,7 @@ mod tests {
         assert_eq!(fitted("smooth/sky", 2), "..");
         assert_eq!(fitted("smooth/sky", 0), "");
         assert_eq!(fitted("a\u{2026}\u{4e2d}\n\u{b5}", 9), "a...??\u{b5}");
+        assert_eq!((unknown_in("a\u{2026}\u{b5}"), unknown_in("a\u{4e2d}b")), (None, Some('\u{4e2d}')));
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Pictures of one size side by side in one.
 
-use crate::caption::Caption;
+use crate::caption::{Caption, unknown_in};
 use crate::{Preview, digits};
 
 /// How the cells of a contact sheet stand.
@@ -74,13 +74,7 @@ impl ContactSheet {
     /// As [`ContactSheet::place`], with another number in its corner, such as a frame's.
     pub fn place_labelled(&mut self, number: u32, label: u32, cell: &Preview) {
         let Some((left, top)) = self.corner(number) else { return };
-        let row_bytes = cell.width as usize * 4;
-        for (y, row) in cell.rgba.chunks_exact(row_bytes.max(1)).enumerate() {
-            let start = ((top as usize + y) * self.picture.width as usize + left as usize) * 4;
-            if let Some(to) = self.picture.rgba.get_mut(start..start + row_bytes) {
-                to.copy_from_slice(row);
-            }
-        }
+        self.put((left, top), cell);
         if self.layout.labels {
             self.label(label, left, top);
         }
@@ -88,15 +82,21 @@ impl ContactSheet {
 
     /// Writes one line of words after the other under cell `number` (from 1), white on a dark strip, in
     /// letters sized to the cell. A line that is too long is shortened and ends in dots; lines beyond
-    /// [`SheetLayout::caption_lines`] are left out. Letters outside of Latin-1 show as `?`.
-    pub fn caption(&mut self, number: u32, lines: &[&str]) {
+    /// [`SheetLayout::caption_lines`] are left out. Letters outside of Latin-1 show as `?`; the first of them comes
+    /// back.
+    pub fn caption(&mut self, number: u32, lines: &[&str]) -> Option<char> {
         let SheetLayout { cell: (width, height), caption_lines, .. } = self.layout;
-        let Some((left, top)) = self.corner(number) else { return };
-        let Some(top) = top.checked_add(height).filter(|_| caption_lines > 0) else { return };
-        let kept = lines.iter().take(caption_lines as usize);
-        let strip = Caption::for_width(width).drawn(width, caption_lines, kept.copied());
-        let row_bytes = strip.width as usize * 4;
-        for (y, row) in strip.rgba.chunks_exact(row_bytes.max(1)).enumerate() {
+        let (left, top) = self.corner(number)?;
+        let top = top.checked_add(height).filter(|_| caption_lines > 0)?;
+        let mut kept = lines.iter().take(caption_lines as usize).copied();
+        self.put((left, top), &Caption::for_width(width).drawn(width, caption_lines, kept.clone()));
+        kept.find_map(unknown_in)
+    }
+
+    /// Copies a picture to where its upper left corner is to be.
+    fn put(&mut self, (left, top): (u32, u32), picture: &Preview) {
+        let row_bytes = picture.width as usize * 4;
+        for (y, row) in picture.rgba.chunks_exact(row_bytes.max(1)).enumerate() {
             let start = ((top as usize + y) * self.picture.width as usize + left as usize) * 4;
             if let Some(to) = self.picture.rgba.get_mut(start..start + row_bytes) {
                 to.copy_from_slice(row);
@@ -209,7 +209,8 @@ mod tests {
             sheet.place(number, &Preview { width: 120, height: 40, rgba: [200, 0, 0, 255].repeat(120 * 40) });
         }
         let before = sheet.clone().finish();
-        sheet.caption(2, &["sky", "1.8 % 3.2 s", "left out"]);
+        assert_eq!(sheet.clone().caption(1, &["sky", "\u{4e2d}"]), Some('\u{4e2d}'));
+        assert_eq!(sheet.caption(2, &["sky", "1.8 % 3.2 s", "left out: \u{4e2d}"]), None);
         let after = sheet.finish();
         let changed = |x: u32, y: u32| {
             let at = (y * after.width + x) as usize * 4;

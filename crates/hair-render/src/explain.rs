@@ -87,6 +87,8 @@ fn light(description: &SceneDescription, list: &mut List) {
     }
     if description.lights.is_empty() {
         list.add("choosing among area lights", "the scene has none");
+    } else if !description.lights.iter().any(|light| light.visible_camera) {
+        list.add("area lights before the camera", "none is to be seen: they only light the scene");
     }
 }
 
@@ -140,7 +142,8 @@ fn some_are_clear(attribute: &Attribute) -> bool {
 }
 
 fn passes(settings: &RenderSettings, list: &mut List) {
-    let pixels = u64::from(settings.width) * u64::from(settings.height);
+    // Settings that are out of range keep nothing.
+    let pixels = settings.window().map_or(0, |window| window.count() as u64);
     for aov in Aov::ALL.into_iter().filter(|&aov| !settings.aovs.contains(aov)) {
         list.add(
             format!("the {} pass", aov.name()),

@@ -1,4 +1,4 @@
-//! A frame as one OpenEXR file with a layer for every pass; reading it is in `frame_header.rs`.
+//! A frame as one OpenEXR file with a layer for every pass; reading it is in `frame_read.rs`.
 
 use std::collections::BTreeMap;
 use std::io::BufWriter;
@@ -6,7 +6,7 @@ use std::path::Path;
 
 use exr::image::write::samples::WritableSamples;
 use exr::prelude as openexr;
-use glam::Vec3;
+use glam::{Mat4, Vec3};
 use half::f16;
 use openexr::{AnyChannel, AnyChannels, AttributeValue, FlatSamples, WritableImage};
 use whole_file::WholeFile;
@@ -32,6 +32,9 @@ pub struct Metadata {
     pub digest: String,
     /// The camera, stored as `worldToCamera`.
     pub camera: Option<Camera>,
+    /// The matrices of a frame that was read and is written again ([`crate::FrameHeader::matrices`]), stored where
+    /// there is no `camera`.
+    pub matrices: Option<[Mat4; 2]>,
     /// How the colours are stored.
     pub precision: Precision,
     /// Frames a second, where there is more than one; stored as `framesPerSecond`.
@@ -72,10 +75,12 @@ impl Frame {
             None => f64::from(self.width) / f64::from(self.height.max(1)),
         };
         // OpenEXR multiplies row vectors: its rows are our columns.
-        let rows = |matrix: glam::DMat4| matrix.as_mat4().to_cols_array();
+        let of_camera = |c: Camera| [c.camera_from_world(), c.ndc_from_world(aspect)].map(|m| m.as_mat4());
+        let matrices = metadata.camera.map(of_camera).or(metadata.matrices);
+        let matrix = |place: usize| matrices.map(|matrices| matrices[place].to_cols_array());
         let mut attributes = openexr::LayerAttributes {
-            world_to_camera: metadata.camera.map(|c| rows(c.camera_from_world())),
-            world_to_normalized_device: metadata.camera.map(|c| rows(c.ndc_from_world(aspect))),
+            world_to_camera: matrix(0),
+            world_to_normalized_device: matrix(1),
             exposure: metadata.exposure_seconds.map(|seconds| seconds as f32),
             frames_per_second: metadata.frame_rate.and_then(rational),
             ..openexr::LayerAttributes::default()

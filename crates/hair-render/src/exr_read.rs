@@ -15,6 +15,7 @@ use exr::meta::BlockDescription;
 use exr::meta::attribute::{AttributeValue, SampleType};
 use exr::meta::header::Header;
 use exr::prelude::Text;
+use glam::Mat4;
 use half::f16;
 
 use crate::RenderError;
@@ -204,6 +205,18 @@ impl Attributes<'_> {
     /// Frames a second.
     pub fn frame_rate(&self) -> Option<f64> {
         self.0.own_attributes.frames_per_second.map(|(over, under)| f64::from(over) / f64::from(under))
+    }
+
+    /// Seconds that the shutter was open.
+    pub fn exposure_seconds(&self) -> Option<f64> {
+        self.0.own_attributes.exposure.map(f64::from)
+    }
+
+    /// World to camera, and to normalised device coordinates.
+    pub fn matrices(&self) -> Option<[Mat4; 2]> {
+        let own = &self.0.own_attributes;
+        let of = |rows: &Option<[f32; 16]>| rows.as_ref().map(Mat4::from_cols_array);
+        Some([of(&own.world_to_camera)?, of(&own.world_to_normalized_device)?])
     }
 
     fn get(&self, name: &str) -> Option<&AttributeValue> {

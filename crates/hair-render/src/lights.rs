@@ -86,6 +86,15 @@ impl Lights {
         self.environment.as_ref().map_or(Vec3::ZERO, |e| e.radiance(direction))
     }
 
+    /// The nearest light that the camera sees along a ray before `reach`.
+    pub fn seen_by_camera(&self, origin: Vec3, direction: Vec3, reach: f32) -> Option<Vec3> {
+        let visible = self.rectangles.iter().filter(|rectangle| rectangle.visible_camera);
+        let seen = visible.filter_map(|rectangle| rectangle.intersect(origin, direction));
+        let nearest =
+            seen.filter(|seen| seen.distance < reach).min_by(|a, b| a.distance.total_cmp(&b.distance));
+        nearest.map(|seen| seen.radiance)
+    }
+
     /// Everything that shines along a ray, each with its radiance and the density with which
     /// [`Lights::sample`] finds it; the environment only when nothing was hit.
     pub fn along(

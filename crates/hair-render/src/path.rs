@@ -89,7 +89,15 @@ impl<'a> PathTracer<'a> {
     /// The light that comes back along a camera ray. All of its path is at the ray's moment of the shutter.
     pub fn trace(&mut self, ray: Ray, sampler: &Sampler) -> PathLight {
         let mut light = PathLight::default();
-        let Some(hit) = self.closest(ray, None, sampler, CAMERA_SET) else {
+        let hit = self.closest(ray, None, sampler, CAMERA_SET);
+        let reach = hit.as_ref().map_or(f32::INFINITY, |hit| hit.t);
+        if let Some(radiance) = self.scene.lights.seen_by_camera(ray.origin, ray.direction, reach) {
+            // It ends here: what the light does to the scene is found along other paths.
+            light.parts[BACKGROUND] = radiance;
+            light.alpha = 1.0;
+            return light;
+        }
+        let Some(hit) = hit else {
             if self.settings.background == Background::Visible {
                 light.parts[BACKGROUND] = self.scene.lights.environment_radiance(ray.direction);
                 light.alpha = 1.0;

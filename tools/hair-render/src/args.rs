@@ -117,6 +117,9 @@ pub struct Light {
     /// A square light: x,y,z,side,radiance, facing the middle of the scene; may be repeated
     #[arg(long, value_name = "X,Y,Z,SIDE,RADIANCE", allow_hyphen_values = true)]
     pub area_light: Vec<Numbers<5>>,
+    /// Show the area lights to the camera; they light the hair either way
+    #[arg(long)]
+    pub visible_lights: bool,
     /// Show the environment behind the hair instead of a transparent background
     #[arg(long)]
     pub background: bool,

@@ -93,7 +93,8 @@ pub fn lights(light: &Light, target: DVec3) -> Result<Vec<AreaLight>> {
     let square = |numbers: [f64; 5]| {
         let [x, y, z, side, radiance] = numbers;
         let radiance = Vec3::splat(radiance as f32);
-        Ok(AreaLight::facing(DVec3::new(x, y, z), target, side as f32, side as f32, radiance)?)
+        let square = AreaLight::facing(DVec3::new(x, y, z), target, side as f32, side as f32, radiance)?;
+        Ok(AreaLight { visible_camera: light.visible_lights, ..square })
     };
     light.area_light.iter().map(|numbers| square(numbers.0)).collect()
 }

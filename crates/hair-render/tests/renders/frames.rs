@@ -114,6 +114,13 @@ fn a_frame_is_read_back_as_it_was_written() {
     assert_eq!(FrameHeader::read(&path).unwrap(), header);
     assert_eq!((header.digest.as_str(), header.spp, header.seed), ("abc123", 6, 0));
     assert_eq!((header.command, header.extra), (metadata.command.clone(), metadata.extra.clone()));
+    let matrices = [camera.camera_from_world(), camera.ndc_from_world(1.0)].map(|matrix| matrix.as_mat4());
+    assert_eq!(header.matrices, Some(matrices));
+    // Written again without a camera, the matrices are those of the file.
+    let again = Metadata { matrices: header.matrices, exposure_seconds: Some(0.25), ..Metadata::default() };
+    frame.write_exr(&path, &again).unwrap();
+    let again = FrameHeader::read(&path).unwrap();
+    assert_eq!((again.matrices, again.exposure_seconds), (Some(matrices), Some(0.25)));
     assert_eq!((header.relative_error, header.threads), (frame.report.relative_error, frame.report.threads));
 
     frame.write_exr(&path, &Metadata { precision: Precision::Half, ..metadata }).unwrap();

@@ -12,3 +12,4 @@ mod environment_files;
 mod frames;
 mod geometry;
 mod surfaces;
+mod visible_lights;

@@ -54,11 +54,19 @@ pub struct AreaSource {
     /// Radiance, linear Rec. 709.
     #[schemars(inner(range(min = 0.0)))]
     pub radiance: [f32; 3],
+    /// Whether the camera sees its front.
+    pub visible_camera: bool,
 }
 
 impl Default for AreaSource {
     fn default() -> Self {
-        AreaSource { position: [1.0, 1.0, 1.0], target: [0.0; 3], size: [0.5, 0.5], radiance: [5.0; 3] }
+        AreaSource {
+            position: [1.0, 1.0, 1.0],
+            target: [0.0; 3],
+            size: [0.5, 0.5],
+            radiance: [5.0; 3],
+            visible_camera: false,
+        }
     }
 }
 
@@ -72,10 +80,12 @@ pub struct CornellBox {
     /// Factor on the light's radiance.
     #[schemars(range(min = 0.0))]
     pub intensity: f32,
+    /// Whether the camera sees the light.
+    pub visible_camera: bool,
 }
 
 impl Default for CornellBox {
     fn default() -> Self {
-        CornellBox { room: 1.8, intensity: 1.0 }
+        CornellBox { room: 1.8, intensity: 1.0, visible_camera: true }
     }
 }

@@ -73,6 +73,7 @@ impl Room {
             edge_v: turn * (Vec3::Z * depth),
             radiance: RADIANCE * settings.intensity,
             two_sided: false,
+            visible_camera: settings.visible_camera,
         }
     }
 

@@ -27,7 +27,8 @@ pub(super) fn areas(lights: &Lights) -> Result<Vec<AreaLight>, TurntableError> {
 fn area(source: &AreaSource) -> Result<AreaLight, TurntableError> {
     let (center, target) = (DVec3::from_array(source.position), DVec3::from_array(source.target));
     let [width, height] = source.size;
-    Ok(AreaLight::facing(center, target, width, height, Vec3::from_array(source.radiance))?)
+    let light = AreaLight::facing(center, target, width, height, Vec3::from_array(source.radiance))?;
+    Ok(AreaLight { visible_camera: source.visible_camera, ..light })
 }
 
 /// A light turned about the world's upright axis by `azimuth` radians.
