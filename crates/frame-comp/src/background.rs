@@ -5,7 +5,7 @@ use std::path::Path;
 use glam::Vec3;
 
 use crate::plate::light_of_srgb;
-use crate::{CompError, Plate};
+use crate::{CompError, Meaning, Plate};
 
 /// A colour or a picture.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +17,15 @@ pub enum Background {
 }
 
 impl Background {
+    /// What its numbers stand for.
+    #[must_use]
+    pub fn meaning(&self) -> Meaning {
+        match self {
+            Background::Color(_) => Meaning::Display,
+            Background::Plate(plate) => plate.meaning(),
+        }
+    }
+
     /// `#rrggbb` (sRGB), `r,g,b` (linear Rec. 709) or the path of a picture.
     ///
     /// # Errors

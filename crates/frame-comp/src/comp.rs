@@ -15,7 +15,7 @@ pub fn behind(frame: &Frame, background: &Background, fit: Fit) -> Frame {
     let mut over = frame.clone();
     let fitted = match background {
         Background::Color(_) => None,
-        Background::Plate(plate) => Some(plate.fitted(frame.width, frame.height, fit).pixels),
+        Background::Plate(plate) => Some(plate.behind(frame, fit).pixels),
     };
     for (index, (pixel, alpha)) in over.beauty.iter_mut().zip(&mut over.alpha).enumerate() {
         let light = match (background, &fitted) {
@@ -41,9 +41,7 @@ pub fn shown(frame: &Frame, background: Option<&Background>, fit: Fit, mapping: 
         Some(light @ Background::Plate(plate)) if plate.meaning() == Meaning::Light => {
             tone_map(&behind(frame, light, fit), mapping)
         }
-        Some(Background::Plate(plate)) => {
-            tone_map_over(frame, mapping, &plate.fitted(frame.width, frame.height, fit).pixels)
-        }
+        Some(Background::Plate(plate)) => tone_map_over(frame, mapping, &plate.behind(frame, fit).pixels),
     }
 }
 
@@ -64,7 +62,7 @@ pub fn shown_deep(
             tone_map_deep(&behind(frame, light, fit), mapping)
         }
         Some(Background::Plate(plate)) => {
-            tone_map_over_deep(frame, mapping, &plate.fitted(frame.width, frame.height, fit).pixels)
+            tone_map_over_deep(frame, mapping, &plate.behind(frame, fit).pixels)
         }
     }
 }

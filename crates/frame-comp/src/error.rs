@@ -16,7 +16,7 @@ pub enum CompError {
     },
     /// A pass that the frame does not carry.
     #[error(
-        "the frame has no pass `{pass}` (it has {has}); render it with `--aov {pass}` or `render.aovs: [{pass}]`"
+        "the frame has no pass `{pass}` (it has {has}); render it with `--aovs {pass}` or `render.aovs: [{pass}]`"
     )]
     NoSuchPass {
         /// The pass.

@@ -30,7 +30,7 @@ impl Fit {
 /// What a fit did.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Fitted {
-    /// Pixels of the frame's size.
+    /// Pixels of the frame, or of the part of it that was asked for.
     pub pixels: Vec<Vec3>,
     /// Factor on its width and height.
     pub scale: (f64, f64),

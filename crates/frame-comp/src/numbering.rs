@@ -22,6 +22,7 @@ pub fn outputs(frames: &[PathBuf], pattern: &Path) -> Result<Vec<PathBuf>, CompE
     if !together {
         return Err(fault(pattern, "has `#` in two places; one is for the number".into()));
     }
+    let inputs: BTreeSet<PathBuf> = frames.iter().filter_map(|frame| frame.canonicalize().ok()).collect();
     let mut named = Vec::new();
     let mut seen = BTreeSet::new();
     for frame in frames {
@@ -33,10 +34,7 @@ pub fn outputs(frames: &[PathBuf], pattern: &Path) -> Result<Vec<PathBuf>, CompE
             };
             pattern.with_file_name(name.replace(&"#".repeat(places), &format!("{number:0>places$}")))
         };
-        let same = |other: &PathBuf| {
-            other.canonicalize().ok().is_some_and(|o| output.canonicalize().ok() == Some(o))
-        };
-        if frames.iter().any(same) {
+        if output.canonicalize().is_ok_and(|output| inputs.contains(&output)) {
             return Err(fault(&output, "is one of the frames; it would be written over".into()));
         }
         if !seen.insert(output.clone()) {

@@ -5,14 +5,16 @@ use std::io::BufReader;
 use std::path::Path;
 
 use glam::Vec3;
-use hair_render::{LightPicture, read_light};
+use hair_render::{Frame, LightPicture, read_light};
+use image::metadata::Orientation;
 use image::{ImageDecoder, ImageReader, Limits};
 
 use crate::{CompError, Fit, Fitted, fit};
 
-/// Edges of a plate, pixels, and bytes it may unpack to.
+/// Edges of a plate and all of it, pixels, and bytes it may unpack to: a small file may hold a large picture of nothing.
 const MOST_EDGE: u32 = 32_768;
-const MOST_BYTES: u64 = 2 << 30;
+const MOST_PIXELS: u64 = 1 << 27;
+const MOST_BYTES: u64 = 8 * MOST_PIXELS;
 
 /// What the numbers of a picture stand for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -42,7 +44,7 @@ impl Plate {
     }
 
     /// Reads a `.png` or `.jpg` (sRGB), an `.exr` or an `.hdr` (light), by its bytes and not its name. What is
-    /// transparent in a PNG is black.
+    /// transparent in a PNG is black; a photograph is turned as its camera says it was held.
     ///
     /// # Errors
     /// [`CompError::Io`], [`CompError::Plate`] or [`CompError::Light`].
@@ -62,15 +64,22 @@ impl Plate {
         limits.max_image_height = Some(MOST_EDGE);
         limits.max_alloc = Some(MOST_BYTES);
         reader.limits(limits);
-        let decoder = reader.into_decoder().map_err(|e| fault(e.to_string()))?;
+        let mut decoder = reader.into_decoder().map_err(|e| fault(e.to_string()))?;
         let (width, height) = decoder.dimensions();
-        let picture = image::DynamicImage::from_decoder(decoder).map_err(|e| fault(e.to_string()))?;
-        let linear = |pixel: &image::Rgba<f32>| {
-            let [red, green, blue, alpha] = pixel.0;
+        if u64::from(width) * u64::from(height) > MOST_PIXELS {
+            return Err(fault(format!("{width} x {height} pixels, expected at most {MOST_PIXELS}")));
+        }
+        // What cannot be read there is no reason not to show the picture.
+        let turned = decoder.orientation().unwrap_or(Orientation::NoTransforms);
+        let mut picture = image::DynamicImage::from_decoder(decoder).map_err(|e| fault(e.to_string()))?;
+        picture.apply_orientation(turned);
+        let picture = picture.into_rgba16();
+        let linear = |pixel: &image::Rgba<u16>| {
+            let [red, green, blue, alpha] = pixel.0.map(|value| f32::from(value) / 65535.0);
             Vec3::new(red, green, blue).map(light_of_srgb) * alpha
         };
-        let pixels = picture.into_rgba32f().pixels().map(linear).collect();
-        Plate::new(width as usize, height as usize, pixels, Meaning::Display)
+        let pixels = picture.pixels().map(linear).collect();
+        Plate::new(picture.width() as usize, picture.height() as usize, pixels, Meaning::Display)
             .ok_or_else(|| fault("it is empty".into()))
     }
 
@@ -86,10 +95,23 @@ impl Plate {
         self.meaning
     }
 
-    /// The plate in a frame of `width` x `height` pixels.
+    /// The plate in a picture of `width` x `height` pixels.
     #[must_use]
     pub fn fitted(&self, width: u32, height: u32, fit: Fit) -> Fitted {
         fit::fitted(&self.pixels, (self.width, self.height), (width as usize, height as usize), fit)
+    }
+
+    /// The plate as it lies behind `frame`: behind a part of a picture, that part of it.
+    #[must_use]
+    pub fn behind(&self, frame: &Frame, fit: Fit) -> Fitted {
+        let Some(cutout) = frame.cutout else { return self.fitted(frame.width, frame.height, fit) };
+        let whole = self.fitted(cutout.full_width, cutout.full_height, fit);
+        let rows = whole.pixels.chunks(cutout.full_width.max(1) as usize);
+        let rows = rows.skip(cutout.y as usize).take(frame.height as usize);
+        let columns = |row: &[Vec3]| {
+            row.iter().skip(cutout.x as usize).take(frame.width as usize).copied().collect::<Vec<_>>()
+        };
+        Fitted { pixels: rows.flat_map(columns).collect(), ..whole }
     }
 }
 

@@ -5,25 +5,13 @@ use frame_comp::{
     Background, CompError, Fit, Meaning, Plate, Weights, behind, residual, reweigh, shown, smaller,
 };
 use glam::Vec3;
-use hair_render::{Aov, Backdrop, Curve, Frame, FrameReport, Preview, ToneMapping, tone_map};
+use hair_render::{Aov, Backdrop, Curve, Cutout, Frame, FrameReport, Preview, ToneMapping, tone_map};
 use proptest::prelude::*;
 
 fn frame(width: u32, height: u32, passes: Vec<(Aov, Vec<Vec3>)>, alpha: Vec<f32>) -> Frame {
     let sum = |i: usize| passes.iter().map(|(_, pixels)| pixels[i].as_dvec3()).sum::<glam::DVec3>().as_vec3();
     let beauty = (0..(width * height) as usize).map(sum).collect();
-    let report = FrameReport {
-        seconds: 0.0,
-        spp: 1,
-        seed: 0,
-        threads: 1,
-        samples: 1,
-        closest_rays: 1,
-        shadow_rays: 0,
-        rejected_samples: 0,
-        rel_mse: None,
-        relative_error: None,
-        motion: None,
-    };
+    let report = FrameReport::default();
     Frame { width, height, cutout: None, beauty, alpha, passes, report }
 }
 
@@ -114,7 +102,9 @@ fn what_cannot_be_weighed_is_refused_by_name() {
     let one = frame(1, 1, vec![(Aov::R, vec![Vec3::ONE]), (Aov::Tt, vec![Vec3::ONE])], vec![1.0]);
     let error = reweigh(&one, &"TRT=2".parse().unwrap()).unwrap_err();
     assert!(
-        matches!(error, CompError::NoSuchPass { pass: "TRT", .. }) && error.to_string().contains("R, TT")
+        matches!(error, CompError::NoSuchPass { pass: "TRT", .. })
+            && error.to_string().contains("R, TT")
+            && error.to_string().contains("--aovs TRT")
     );
     let cases = [
         ("TT", "no `=`"),
@@ -214,4 +204,54 @@ fn a_smaller_frame_holds_as_much_light_and_still_adds_up() {
     assert!((sum(&large) - sum(&small) * 4.0).abs().max_element() < 1e-2);
     assert!(residual(&small).relative < 1e-6);
     assert_eq!(smaller(&large, 10), large);
+}
+
+/// Behind a part of a picture lies the same part of the plate, whatever the fit.
+#[test]
+fn a_crop_gets_its_part_of_the_plate() {
+    let plate = Background::Plate(gradient(9, 4));
+    let whole = frame(12, 8, vec![], vec![0.0; 96]);
+    let mut whole = Frame { beauty: vec![Vec3::ZERO; 96], ..whole };
+    whole.alpha.iter_mut().enumerate().for_each(|(i, alpha)| *alpha = (i % 3) as f32 / 2.0);
+    let (x, y, width, height) = (3, 2, 7, 5);
+    let places: Vec<usize> = (0..width * height).map(|i| (i / width + y) * 12 + i % width + x).collect();
+    let cutout = Cutout { x: x as u32, y: y as u32, full_width: 12, full_height: 8 };
+    let part = Frame {
+        width: width as u32,
+        height: height as u32,
+        cutout: Some(cutout),
+        beauty: vec![Vec3::ZERO; places.len()],
+        alpha: places.iter().map(|&at| whole.alpha[at]).collect(),
+        ..whole.clone()
+    };
+    for fit in [Fit::Fill, Fit::Whole, Fit::Stretch] {
+        let (all, some) = (behind(&whole, &plate, fit), behind(&part, &plate, fit));
+        let expected: Vec<Vec3> = places.iter().map(|&at| all.beauty[at]).collect();
+        assert_eq!(some.beauty, expected, "{fit:?}");
+        let mapping = ToneMapping::default();
+        let (all, some) =
+            (shown(&whole, Some(&plate), fit, &mapping), shown(&part, Some(&plate), fit, &mapping));
+        let (all, some) = (all.rgba.as_chunks::<4>().0, some.rgba.as_chunks::<4>().0);
+        assert!(places.iter().zip(some).all(|(&at, pixel)| all[at] == *pixel), "{fit:?}");
+    }
+}
+
+/// A photograph that was taken on its side stands upright.
+#[test]
+fn photographs_are_turned_as_they_were_held() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("plate.jpg");
+    let mut jpeg = Vec::new();
+    let rgb: Vec<u8> = (0..32 * 16).flat_map(|i| if i % 32 < 16 { [250; 3] } else { [5; 3] }).collect();
+    image::codecs::jpeg::JpegEncoder::new(&mut jpeg)
+        .encode(&rgb, 32, 16, image::ExtendedColorType::Rgb8)
+        .unwrap();
+    // Behind the first two bytes: an Exif segment that says orientation 6, to be turned clockwise by a quarter.
+    let tiff = [&b"II*\0\x08\0\0\0\x01\0"[..], b"\x12\x01\x03\0\x01\0\0\0\x06\0\0\0", &[0; 4]].concat();
+    let exif = [&[0xff, 0xe1, 0, (tiff.len() + 8) as u8][..], b"Exif\0\0", &tiff].concat();
+    std::fs::write(&path, [&jpeg[..2], &exif, &jpeg[2..]].concat()).unwrap();
+    let plate = Plate::read(&path).unwrap();
+    assert_eq!(plate.size(), (16, 32));
+    let pixels = plate.fitted(16, 32, Fit::Stretch).pixels;
+    assert!(pixels[4 * 16 + 8].x > 0.8 && pixels[28 * 16 + 8].x < 0.1, "white is above");
 }

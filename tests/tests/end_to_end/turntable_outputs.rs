@@ -156,6 +156,8 @@ fn comp_says_what_previews_show_and_keeps_numbers() {
         (&[], "frames/b/frame.####.exr", "written over"),
         (&["--background", "#12"], "f.#.png", "#rrggbb"),
         (&["--exposure", "1e9"], "f.#.png", "-64..=64"),
+        (&["--curve", "clip"], "f.#.exr", "--curve is for a .png"),
+        (&["--fit", "whole"], "f.#.png", "--background"),
         (&[], "f.#.jpg", ".exr or .png"),
     ] {
         let output = comp(arguments, out);
