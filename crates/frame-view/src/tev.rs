@@ -5,7 +5,7 @@
 //! (message 6, `UpdateImageV3`).
 
 use std::io::Write as _;
-use std::net::{TcpStream, ToSocketAddrs as _};
+use std::net::{SocketAddr, TcpStream, ToSocketAddrs as _};
 use std::time::Duration;
 
 use crate::ViewError;
@@ -61,10 +61,8 @@ impl Tev {
             return Err(ViewError::Size { found: channels.len(), width, height, expected: 1 });
         }
         let viewer = |action, source| ViewError::Viewer { address: address.to_owned(), action, source };
-        let mut places = address.to_socket_addrs().map_err(|e| viewer("find the host", e))?;
-        let nobody = || std::io::Error::from(std::io::ErrorKind::AddrNotAvailable);
-        let place = places.next().ok_or_else(|| viewer("find the host", nobody()))?;
-        let stream = TcpStream::connect_timeout(&place, PATIENCE).map_err(|e| viewer("connect to tev", e))?;
+        let places = address.to_socket_addrs().map_err(|e| viewer("find the host", e))?;
+        let stream = connected(places).map_err(|e| viewer("connect to tev", e))?;
         stream.set_write_timeout(Some(PATIENCE)).map_err(|e| viewer("connect to tev", e))?;
         let mut message = Message::new(CREATE);
         // Comes to the front.
@@ -132,6 +130,18 @@ impl Tev {
     }
 }
 
+/// A connection to the first of `places` that takes one: `localhost` is two, and tev listens on one of them.
+fn connected(places: impl Iterator<Item = SocketAddr>) -> std::io::Result<TcpStream> {
+    let mut fault = std::io::Error::from(std::io::ErrorKind::AddrNotAvailable);
+    for place in places {
+        match TcpStream::connect_timeout(&place, PATIENCE) {
+            Ok(stream) => return Ok(stream),
+            Err(refused) => fault = refused,
+        }
+    }
+    Err(fault)
+}
+
 /// A message being written; its first four bytes are the place of its length.
 struct Message(Vec<u8>);
 
@@ -155,5 +165,20 @@ impl Message {
     fn text(&mut self, text: &str) {
         self.0.extend(text.as_bytes());
         self.0.push(0);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A host of two addresses, of which the first is nobody's.
+    #[test]
+    fn every_address_of_a_host_is_tried() {
+        let listener = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+        let open = listener.local_addr().unwrap();
+        let closed = std::net::TcpListener::bind("127.0.0.1:0").unwrap().local_addr().unwrap();
+        assert!(connected([closed, open].into_iter()).is_ok());
+        assert!(connected([closed].into_iter()).is_err() && connected(std::iter::empty()).is_err());
     }
 }
