@@ -64,6 +64,7 @@ pub(super) fn make(step: &Step, finished: &Finished) -> Result<bool, TurntableEr
     else {
         return Ok(false);
     };
+    let mut strange = None;
     for (cell, frame) in (1..).zip(finished.frames) {
         let variant =
             frame.variant.and_then(|index| Some((finished.variants.get(index)?, looks.get(index)?)));
@@ -71,7 +72,13 @@ pub(super) fn make(step: &Step, finished: &Finished) -> Result<bool, TurntableEr
         let path = finished.output.join(&frame.output);
         sheet.place_labelled(cell, number, &look.shown(&look.read(&path)?));
         let lines = facts::lines(&settings.captions, variant, number, &path);
-        sheet.caption(cell, &lines.iter().map(String::as_str).collect::<Vec<_>>());
+        if let Some(letter) = sheet.caption(cell, &lines.iter().map(String::as_str).collect::<Vec<_>>()) {
+            strange = strange.or_else(|| Some((letter, variant.id.clone())));
+        }
+    }
+    if let Some((letter, name)) = strange {
+        let words = format!("the sheet's letters are those of Latin-1: `{letter}` of `{name}` shows as `?`");
+        finished.reporter.event(&Event::Warning(&words));
     }
     sheet.finish().write_png(&finished.output.join(&step.output))?;
     Ok(true)

@@ -34,7 +34,7 @@ impl Default for Sheet {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Caption {
-    /// The names of the variant's settings.
+    /// The names of the variant's settings; letters outside of Latin-1 show as `?`.
     Variant,
     /// The frame's number.
     Frame,
