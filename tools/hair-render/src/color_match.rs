@@ -1,13 +1,27 @@
 //! The colour that was picked, on this groom.
 
 use anyhow::{Context, Result, bail};
+use command_line::{Bar, say};
 use fibre_material::Varying;
 use glam::Vec3;
 use hair_render::{
-    Camera, ColorMatch, ColorMatching, HairColor, HairObject, Reach, RenderError, RenderSettings, Scene,
+    Camera, ColorMatch, ColorMatching, HairColor, HairObject, Progress, Reach, RenderError, RenderSettings,
+    Scene,
 };
 
-use crate::picture::{OnBar, say};
+/// Shows tiles on a bar and stops on Ctrl-C.
+struct OnBar(Bar);
+
+impl Progress for OnBar {
+    fn advance(&self, done: u64, total: u64) {
+        self.0.set_len(total);
+        self.0.set(done);
+    }
+
+    fn cancelled(&self) -> bool {
+        command_line::interrupted()
+    }
+}
 
 /// The colour that the hair was given, where it is one for all strands: what is matched is one absorption.
 pub fn picked(hair: &[HairObject]) -> Result<Vec3> {

@@ -4,9 +4,8 @@ use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
+use command_line::say;
 use hair_render::{Checkpoint, Frame, FrameHeader};
-
-use crate::picture::say;
 
 /// A hidden file beside the output, `.NAME.part.exr`.
 pub fn part_of(output: &Path) -> PathBuf {
@@ -67,12 +66,21 @@ pub fn keep(checkpoint: &Checkpoint, output: &Path) -> bool {
     written.is_ok()
 }
 
-/// Removes what a finished picture needs no more.
-pub fn clear(output: &Path) -> Result<()> {
-    let part = part_of(output);
-    match std::fs::remove_file(&part) {
+/// Removes what a picture of `spp` samples a pixel that is finished needs no more: its checkpoint, and a snapshot that
+/// it, or a run that was stopped, left.
+pub fn clear(output: &Path, digest: &str, spp: u32) -> Result<()> {
+    let snapshot = snapshot_of(output);
+    let is_of_it = |header: FrameHeader| header.digest == digest && header.spp < spp;
+    if FrameHeader::read(&snapshot).is_ok_and(is_of_it) {
+        remove(&snapshot)?;
+    }
+    remove(&part_of(output))
+}
+
+fn remove(path: &Path) -> Result<()> {
+    match std::fs::remove_file(path) {
         Err(fault) if fault.kind() != std::io::ErrorKind::NotFound => {
-            Err(anyhow::Error::from(fault).context(part.display().to_string()))
+            Err(anyhow::Error::from(fault).context(path.display().to_string()))
         }
         _ => Ok(()),
     }

@@ -1,6 +1,7 @@
 //! `hair-render`: path-traces a groom to a multi-layer EXR with an honest error figure.
 
 mod args;
+mod asked;
 mod color_match;
 mod digest;
 mod farm_args;
@@ -8,6 +9,7 @@ mod keeping;
 mod motion_args;
 mod picture;
 mod presets;
+mod report;
 mod scene;
 mod show;
 mod watch;

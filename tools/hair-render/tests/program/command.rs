@@ -64,6 +64,7 @@ fn what_cannot_be_written_is_refused_before_rendering() {
         (&["-o", "a.exr", "--aovs", "glint"], "glint"),
         (&["-o", "a.exr", "--env-intensity=-1"], "--env-intensity"),
         (&["-o", "a.exr", "--env-rotate", "inf"], "--env-rotate"),
+        (&["-o", "a.exr", "--exposure", "nan"], "--exposure is NaN, expected -64..=64 stops"),
         (&["-o", "a.exr", "--distance=-2"], "distance"),
         (&["-o", "a.exr", "--crop", "0.5,0.2,0,1"], "crop"),
         (&["-o", "a.exr", "--time-limit", "0"], "--time-limit"),

@@ -4,7 +4,7 @@ use std::path::Path;
 use std::process::{Command, Output, Stdio};
 use std::time::{Duration, Instant};
 
-use hair_render::{Checkpoint, Frame, FrameHeader};
+use hair_render::{Checkpoint, Frame, FrameHeader, FrameReport, Metadata};
 
 use crate::support::*;
 
@@ -180,6 +180,17 @@ fn a_snapshot_shows_the_picture_so_far() {
         assert!(child.wait().unwrap().success());
         assert_eq!(names(&folder), ["a.exr"], "gone once the picture is there");
         assert_eq!(FrameHeader::read(&folder.join("a.exr")).unwrap().digest, header.digest);
+    }
+    // One that a run left which was killed goes too; another picture's stays.
+    let small = ["--width", "16", "--height", "12", "-o", "a.exr"];
+    for (spp, left) in [("4", &["a.exr"][..]), ("5", &["a.exr", "a.snapshot.exr"])] {
+        assert!(run(&folder, &[&small[..], &["--spp", "4"]].concat()).status.success());
+        let frame = Frame::read_exr(&folder.join("a.exr")).unwrap();
+        let report = FrameReport { spp: 2, ..frame.0.report.clone() };
+        let metadata = Metadata { digest: frame.1.digest, ..Metadata::default() };
+        Frame { report, ..frame.0 }.write_exr(&snapshot, &metadata).unwrap();
+        assert!(run(&folder, &[&small[..], &["--spp", spp]].concat()).status.success());
+        assert_eq!(names(&folder), left, "{spp}");
     }
 }
 
