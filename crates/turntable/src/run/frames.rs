@@ -138,6 +138,7 @@ impl<'a> Run<'a> {
             frame_rate,
             exposure_seconds,
             extra: extra.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
+            ..Metadata::default()
         };
         let (checkpoint, snapshot) = (checkpoint_of(&path), self.snapshot_of(frame.step));
         let frames: Vec<(usize, usize)> = self.to_render.iter().map(|(&v, &left)| (v, left)).collect();
