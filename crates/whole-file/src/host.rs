@@ -5,11 +5,19 @@ use std::sync::LazyLock;
 /// Letters of a host's name that are kept.
 const LONGEST: usize = 32;
 
+/// Linux's number for the processes that are in no container (`PROC_PID_INIT_INO`).
+const ALL_PROCESSES: &str = "4026531836";
+
 static HOST: LazyLock<String> = LazyLock::new(|| {
     let told = std::fs::read_to_string("/proc/sys/kernel/hostname").ok();
     let variable = |name: &str| std::env::var(name).ok();
     let told = told.or_else(|| variable("HOSTNAME")).or_else(|| variable("COMPUTERNAME"));
-    told.as_deref().and_then(as_word).unwrap_or_default()
+    let Some(host) = told.as_deref().and_then(as_word) else { return String::new() };
+    // Containers may be called as their machine is, and do not see each other's processes.
+    let link = std::fs::read_link("/proc/self/ns/pid").unwrap_or_default();
+    let number: String = link.to_string_lossy().chars().filter(char::is_ascii_digit).collect();
+    let in_container = !number.is_empty() && number != ALL_PROCESSES;
+    in_container.then(|| as_word(&format!("{host}-{number}"))).flatten().unwrap_or(host)
 });
 
 /// The name of this machine, in letters, digits, `-` and `_`; `None` where it cannot be had.

@@ -18,15 +18,17 @@
 //!
 //! Temporary names are `.NAME.HOST.PID.RANDOM.tmp`: several machines may write to a folder that they share. A
 //! process that was killed leaves them behind; [`clear_stale`] removes those of one target, [`abandon_all`] those
-//! of this process (for Ctrl-C).
+//! of this process (for Ctrl-C). They tell other processes that somebody is at a file, too ([`other_writers`]).
 
 mod error;
 mod host;
 mod live;
+mod owner;
 mod stale;
 mod write;
 
 pub use error::WholeFileError;
 pub use live::abandon_all;
+pub use owner::other_writers;
 pub use stale::{clear_stale, clear_stale_in};
 pub use write::{WholeFile, write_whole};

@@ -2,12 +2,8 @@
 
 use std::fs::{self, DirEntry};
 use std::path::Path;
-use std::time::{Duration, SystemTime};
 
-use crate::host::host;
-
-/// A file nobody wrote to for so long is nobody's, whichever machine began it: no clock of a farm is off by a day.
-const LONG_AGO: Duration = Duration::from_secs(24 * 60 * 60);
+use crate::owner::{Owner, prefix_of, temporaries_of};
 
 /// Removes temporary files that killed processes left beside `path`; returns how many.
 ///
@@ -16,17 +12,8 @@ const LONG_AGO: Duration = Duration::from_secs(24 * 60 * 60);
 /// wrote to them for a day, and so are those of this machine where it cannot be told whether a process lives (no
 /// `/proc`).
 pub fn clear_stale(path: impl AsRef<Path>) -> usize {
-    // As when it was created: beside the file a link points at.
-    let path = path.as_ref().canonicalize().unwrap_or_else(|_| path.as_ref().to_owned());
-    let (Some(folder), Some(name)) = (path.parent(), path.file_name()) else { return 0 };
-    let folder = if folder.as_os_str().is_empty() { Path::new(".") } else { folder };
-    let prefix = format!(".{}.", name.to_string_lossy());
-    let Ok(entries) = fs::read_dir(folder) else { return 0 };
-    let stale = |entry: &DirEntry| {
-        Owner::of(&entry.file_name().to_string_lossy(), &prefix)
-            .is_some_and(|owner| owner.is_gone().unwrap_or_else(|| is_old(entry)))
-    };
-    entries.flatten().filter(stale).filter(|entry| fs::remove_file(entry.path()).is_ok()).count()
+    let stale = temporaries_of(path.as_ref()).into_iter().filter(|(owner, entry)| owner.is_gone(entry));
+    stale.filter(|(_, entry)| fs::remove_file(entry.path()).is_ok()).count()
 }
 
 /// Removes temporary files that killed processes left in `folder`, whatever they were to become; returns how many.
@@ -37,60 +24,19 @@ pub fn clear_stale_in(folder: impl AsRef<Path>) -> usize {
     let Ok(entries) = fs::read_dir(folder) else { return 0 };
     let stale = |entry: &DirEntry| {
         let name = entry.file_name().to_string_lossy().into_owned();
-        prefix_of(&name)
-            .and_then(|prefix| Owner::of(&name, prefix))
-            .is_some_and(|owner| owner.is_gone().unwrap_or_else(|| is_old(entry)))
+        prefix_of(&name).and_then(|prefix| Owner::of(&name, prefix)).is_some_and(|owner| owner.is_gone(entry))
     };
     entries.flatten().filter(stale).filter(|entry| fs::remove_file(entry.path()).is_ok()).count()
-}
-
-/// What stands before host, process and random letters in the temporary name of any file.
-fn prefix_of(file_name: &str) -> Option<&str> {
-    let stem = file_name.strip_suffix(".tmp").filter(|stem| stem.starts_with('.'))?;
-    let (at, _) = stem.rmatch_indices('.').nth(2).filter(|(at, _)| *at > 1)?;
-    file_name.get(..=at)
-}
-
-/// Who began a temporary file.
-#[derive(Debug, PartialEq, Eq)]
-struct Owner<'a> {
-    /// `None` in names of earlier versions, `.NAME.PID.RANDOM.tmp`.
-    host: Option<&'a str>,
-    process: u32,
-}
-
-impl<'a> Owner<'a> {
-    /// As `.NAME.HOST.PID.RANDOM.tmp` says it; `None` for all other names.
-    fn of(file_name: &'a str, prefix: &str) -> Option<Self> {
-        let words: Vec<&str> = file_name.strip_prefix(prefix)?.strip_suffix(".tmp")?.split('.').collect();
-        let (host, process, random) = match words[..] {
-            [host, process, random] => (Some(host), process, random),
-            [process, random] => (None, process, random),
-            _ => return None,
-        };
-        let process = process.parse().ok().filter(|_| !random.is_empty())?;
-        Some(Owner { host, process })
-    }
-
-    /// Whether its process is gone; `None` where that cannot be told.
-    fn is_gone(&self) -> Option<bool> {
-        let here = self.host.is_some() && self.host == host();
-        let knows = here && Path::new("/proc/self").exists();
-        knows.then(|| !Path::new("/proc").join(self.process.to_string()).exists())
-    }
-}
-
-fn is_old(entry: &DirEntry) -> bool {
-    let written = entry.metadata().and_then(|found| found.modified());
-    let age = written.ok().and_then(|written| SystemTime::now().duration_since(written).ok());
-    age.is_some_and(|age| age > LONG_AGO)
 }
 
 #[cfg(test)]
 mod tests {
     use std::path::PathBuf;
+    use std::time::{Duration, SystemTime};
 
     use super::*;
+    use crate::host::host;
+    use crate::owner::LONG_AGO;
 
     fn put(path: &PathBuf, age: Duration) {
         fs::write(path, b"x").unwrap();
