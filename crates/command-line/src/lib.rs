@@ -9,7 +9,7 @@
 //! }
 //! ```
 //!
-//! Words go to stderr, data to stdout; only programs use this crate.
+//! Words go to stderr, data to stdout; only programs use this crate, and `frame-view`, which shows pictures for them.
 
 mod interrupt;
 mod meter;

@@ -48,6 +48,9 @@ pub enum ViewError {
         /// What the system said.
         source: std::io::Error,
     },
+    /// The terminal does not take the picture.
+    #[error("writing to the terminal: {0}")]
+    Terminal(std::io::Error),
     /// The picture could not be packed for the terminal.
     #[error("the picture could not be packed: {0}")]
     Packed(String),

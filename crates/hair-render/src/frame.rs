@@ -25,6 +25,22 @@ pub struct Frame {
 }
 
 impl Frame {
+    /// A picture in which nothing is to be seen.
+    #[must_use]
+    pub fn empty(width: u32, height: u32) -> Frame {
+        let count = width as usize * height as usize;
+        let (beauty, alpha) = (vec![Vec3::ZERO; count], vec![0.0; count]);
+        Frame {
+            width,
+            height,
+            cutout: None,
+            beauty,
+            alpha,
+            passes: Vec::new(),
+            report: FrameReport::default(),
+        }
+    }
+
     /// The pixels of a pass, if it was asked for.
     #[must_use]
     pub fn pass(&self, aov: Aov) -> Option<&[Vec3]> {

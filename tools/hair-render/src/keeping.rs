@@ -1,33 +1,22 @@
 //! What is kept of a render that is not finished, and where.
 
-use std::ffi::OsString;
 use std::path::{Path, PathBuf};
 
 use anyhow::Result;
 use command_line::say;
-use hair_render::{Checkpoint, Frame, FrameHeader};
-
-/// A hidden file beside the output, `.NAME.part.exr`.
-pub fn part_of(output: &Path) -> PathBuf {
-    beside(output, ".", ".part.exr")
-}
+use hair_render::{Checkpoint, Frame, FrameHeader, checkpoint_path};
 
 /// `NAME.snapshot.exr` beside the output.
 pub fn snapshot_of(output: &Path) -> PathBuf {
-    beside(output, "", ".snapshot.exr")
-}
-
-fn beside(output: &Path, before: &str, after: &str) -> PathBuf {
-    let mut name = OsString::from(before);
-    name.push(output.file_stem().unwrap_or_default());
-    name.push(after);
+    let mut name = output.file_stem().unwrap_or_default().to_owned();
+    name.push(".snapshot.exr");
     output.with_file_name(name)
 }
 
 /// The checkpoint beside the output, if there is one of this picture. Another picture's, or a broken one, is told
 /// and left out: it is written over in time.
 pub fn taken_up(output: &Path, digest: &str) -> Option<Checkpoint> {
-    let path = part_of(output);
+    let path = checkpoint_path(output);
     if !path.exists() {
         return None;
     }
@@ -59,7 +48,7 @@ pub fn existing(output: &Path, digest: &str) -> Option<Frame> {
 
 /// Keeps a checkpoint, or says why it could not: a full disk is no reason to lose what is being rendered.
 pub fn keep(checkpoint: &Checkpoint, output: &Path) -> bool {
-    let written = checkpoint.write(&part_of(output));
+    let written = checkpoint.write(&checkpoint_path(output));
     if let Err(fault) = &written {
         say(&format!("warning: {fault}: going on without a checkpoint"));
     }
@@ -74,7 +63,7 @@ pub fn clear(output: &Path, digest: &str, spp: u32) -> Result<()> {
     if FrameHeader::read(&snapshot).is_ok_and(is_of_it) {
         remove(&snapshot)?;
     }
-    remove(&part_of(output))
+    remove(&checkpoint_path(output))
 }
 
 fn remove(path: &Path) -> Result<()> {
@@ -91,9 +80,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn what_is_kept_lies_beside_the_output() {
+    fn snapshots_lie_beside_the_output() {
         let output = Path::new("out/frame.0001.exr");
-        assert_eq!(part_of(output), Path::new("out/.frame.0001.part.exr"));
         assert_eq!(snapshot_of(output), Path::new("out/frame.0001.snapshot.exr"));
     }
 }

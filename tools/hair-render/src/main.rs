@@ -11,7 +11,6 @@ mod picture;
 mod presets;
 mod report;
 mod scene;
-mod show;
 mod watch;
 
 use std::process::ExitCode;

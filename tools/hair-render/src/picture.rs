@@ -5,9 +5,11 @@ use std::time::Instant;
 
 use anyhow::{Context, Result, ensure};
 use command_line::{Meter, Outcome, ProgressStyle};
+use frame_view::Show;
 use glam::{DVec3, Vec3};
 use hair_render::{
-    Backdrop, Checkpoint, Frame, Rendered, Scene, SceneDescription, ToneMapping, check_output, tone_map,
+    Backdrop, Checkpoint, Frame, Rendered, Scene, SceneDescription, ToneMapping, check_output, checkpoint_path,
+    tone_map,
 };
 use whole_file::clear_stale;
 
@@ -15,10 +17,8 @@ pub use command_line::say;
 
 use crate::args::Args;
 use crate::asked::{metadata, settings, usual_passes};
-use crate::keeping::part_of;
 use crate::report::{Blurred, Extra, leave_out, report, tables};
 use crate::scene::Described;
-use crate::show::Show;
 use crate::watch::Watch;
 use crate::{color_match, digest, keeping, scene};
 
@@ -61,7 +61,7 @@ fn rendered(args: &Args, start: Instant, meter: &Meter) -> Result<Outcome> {
     settings.aovs = args.quality.aovs.unwrap_or_else(|| usual_passes(&description));
     let digest = digest::of(args, &description, &settings)?;
     clear_stale(output);
-    clear_stale(part_of(output));
+    clear_stale(checkpoint_path(output));
     if args.farm.skip_existing
         && let Some(frame) = keeping::existing(output, &digest)
     {
@@ -118,7 +118,7 @@ fn skip(args: &Args, output: &Path, digest: &str, frame: &Frame) -> Result<Outco
 
 /// Keeps what was rendered, so that the same command goes on from there.
 fn stopped(checkpoint: &Checkpoint, output: &Path) -> Result<Outcome> {
-    let (spp, asked, part) = (checkpoint.spp(), checkpoint.spp_asked(), part_of(output));
+    let (spp, asked, part) = (checkpoint.spp(), checkpoint.spp_asked(), checkpoint_path(output));
     checkpoint.write(&part)?;
     say(&format!("stopped at {spp} of {asked} samples a pixel; kept in {}", part.display()));
     Ok(Outcome::TryAgain)

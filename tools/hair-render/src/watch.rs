@@ -5,12 +5,12 @@ use std::sync::Mutex;
 use std::time::{Duration, Instant};
 
 use command_line::Meter;
-use hair_render::{Frame, Metadata, Next, Progress, SoFar};
+use frame_view::Show;
+use hair_render::{CheckpointTimer, Frame, Metadata, Next, Progress, SoFar};
 
-use crate::farm_args::{Every, FarmArgs};
+use crate::farm_args::FarmArgs;
 use crate::keeping;
 use crate::picture::say;
-use crate::show::Show;
 
 /// The eyes on one render.
 pub struct Watch<'a> {
@@ -25,8 +25,7 @@ pub struct Watch<'a> {
 
 /// When things were done last, and who sees them.
 struct Last {
-    kept: Instant,
-    kept_spp: u32,
+    checkpoint: CheckpointTimer,
     shown: Instant,
     /// A snapshot that was written.
     snapshot: Option<PathBuf>,
@@ -44,7 +43,8 @@ impl<'a> Watch<'a> {
         (start, spp): (Instant, u32),
     ) -> Self {
         let now = Instant::now();
-        let last = Last { kept: now, kept_spp: spp, shown: now, snapshot: None, show };
+        let checkpoint = CheckpointTimer::new(args.checkpoint_every, spp);
+        let last = Last { checkpoint, shown: now, snapshot: None, show };
         let end = args.time_limit.and_then(|limit| start.checked_add(limit));
         Watch { args, output, metadata, meter, end, last: Mutex::new(last) }
     }
@@ -61,14 +61,8 @@ impl<'a> Watch<'a> {
     }
 
     fn keep_if_due(&self, last: &mut Last, so_far: &SoFar<'_>) {
-        let due = match self.args.checkpoint_every {
-            Every::Time(time) => last.kept.elapsed() >= time,
-            Every::Spp(spp) => so_far.spp() - last.kept_spp >= spp,
-            Every::Never => false,
-        };
-        if due {
+        if last.checkpoint.is_due(so_far.spp()) {
             keeping::keep(so_far.checkpoint(), self.output);
-            (last.kept, last.kept_spp) = (Instant::now(), so_far.spp());
         }
     }
 
