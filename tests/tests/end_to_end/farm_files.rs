@@ -5,7 +5,7 @@ use std::process::{Command, Output};
 
 use end_to_end_tests::{program, run};
 
-use crate::chaos::bench::{Bench, assert_same, contents};
+use crate::turntable_bench::{Bench, assert_same, contents};
 
 /// Two variants, and a name that wants quoting.
 pub const PIPELINE: &str = "version: 1
@@ -54,8 +54,8 @@ impl Exported {
     /// Everything is there, as an undisturbed run makes it.
     pub fn assert_made(&self) {
         assert_same(&contents(&self.bench.out()), &contents(&self.undisturbed.out()));
-        let check = self.bench.command(&["--check"]).status().unwrap();
-        assert_eq!(check.code(), Some(0), "everything is up to date");
+        let check = self.bench.command(&["--check"]).output().unwrap();
+        assert_eq!(check.status.code(), Some(0), "everything is up to date");
     }
 }
 
@@ -207,8 +207,8 @@ fn an_export_replaces_the_one_before_it() {
     };
     assert_eq!(again(&[]), before, "the same pipeline, the same files");
     assert_ne!(again(&["--frames", "1-2"])[0], before[0]);
-    let left = crate::chaos::bench::files_below(exported.bench.folder.path());
+    let left = crate::turntable_bench::files_below(exported.bench.folder.path());
     let left: Vec<&Path> =
-        left.iter().map(PathBuf::as_path).filter(|p| crate::chaos::bench::is_hidden(p)).collect();
+        left.iter().map(PathBuf::as_path).filter(|p| crate::turntable_bench::is_hidden(p)).collect();
     assert!(left.is_empty(), "{left:?}");
 }

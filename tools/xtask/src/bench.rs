@@ -5,7 +5,8 @@ use anyhow::Result;
 use crate::shell::{cargo, step};
 
 /// Every bench program of the workspace, low to high.
-const BENCHES: [(&str, &str); 15] = [
+const BENCHES: [(&str, &str); 16] = [
+    ("whole-file", "small_files"),
     ("cyhair", "read"),
     ("usd-layer", "read"),
     ("groom-formats", "convert"),

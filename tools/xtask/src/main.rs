@@ -10,7 +10,7 @@ use std::process::ExitCode;
 const USAGE: &str = "\
 usage: cargo xtask COMMAND
 
-  setup   install the validators the tests use into target/ (usd-core, openjd-cli, ffmpeg, the Khronos glTF validator)
+  setup   install what the tests use into target/ (usd-core, openjd-cli, ffmpeg, a browser, the Khronos glTF validator)
   test    everything a change must pass: setup, format, lints, tests, docs, features, fuzz targets, licences
   bench   print speed and memory figures (release build; the machine should be idle)
 ";

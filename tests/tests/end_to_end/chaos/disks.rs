@@ -9,7 +9,7 @@ use std::process::{Command, Output};
 
 use end_to_end_tests::{program, say_skipped};
 
-use super::bench::{Bench, Content, assert_same, contents, files_below, is_hidden};
+use crate::turntable_bench::{Bench, Content, assert_same, contents, files_below, is_hidden};
 
 const PIPELINE: &str = "version: 1
 groom: {sample: {style: wavy, strands: 40, points: 6}}

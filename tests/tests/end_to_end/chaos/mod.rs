@@ -1,6 +1,5 @@
 //! Renderers that are killed at any moment, many in one folder; disks that are full or may not be written.
 
-pub mod bench;
 #[cfg(target_os = "linux")]
 mod disks;
 #[cfg(unix)]

@@ -6,8 +6,8 @@ use std::io::{Read, Write};
 use std::process::{Child, Stdio};
 use std::time::{Duration, Instant};
 
-use super::bench::{Bench, assert_same, contents, files_below, is_hidden};
 use super::watcher::Watcher;
+use crate::turntable_bench::{Bench, assert_same, contents, files_below, is_hidden};
 
 const PIPELINE: &str = "version: 1
 groom: {sample: {style: wavy, strands: 40, points: 6}}
@@ -72,8 +72,8 @@ impl Storm {
         assert!(seen.whole > 0, "the reader saw nothing");
         // One more run, alone, has nothing to make, and sweeps.
         bench.make(&FLAGS);
-        let check = bench.command(&["--check"]).status().unwrap();
-        assert_eq!(check.code(), Some(0), "everything is up to date");
+        let check = bench.command(&["--check"]).output().unwrap();
+        assert_eq!(check.status.code(), Some(0), "everything is up to date");
         assert_same(&contents(&bench.out()), &wanted);
         let left: Vec<_> = files_below(&bench.out()).into_iter().filter(|path| is_hidden(path)).collect();
         assert!(left.is_empty(), "left behind: {left:?}");

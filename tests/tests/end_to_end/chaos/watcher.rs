@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 use std::thread::JoinHandle;
 
-use super::bench::{content, files_below, is_hidden};
+use crate::turntable_bench::{content, files_below, is_hidden};
 
 /// What a reader saw.
 #[derive(Default)]

@@ -1,8 +1,8 @@
-//! A small turntable in a folder of its own, and what must come of it.
+//! Small turntables in folders of their own, and what must come of them.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Stdio};
+use std::process::Command;
 
 use end_to_end_tests::program;
 use exr::prelude::{ReadChannels as _, ReadLayers as _};
@@ -14,9 +14,27 @@ pub enum Content {
     Bytes(Vec<u8>),
 }
 
+/// Converted files, three frames and a sheet, made in no time.
+pub const SMALL: &str = "version: 1
+groom: {sample: {style: wavy, strands: 40, points: 6}}
+convert: [groom.txt, groom.hair]
+lights: {environment: {constant: [1, 0.9, 0.8]}}
+turntable: {frames: 3}
+render: {width: 16, height: 16, spp: 2, max_bounces: 4, aovs: [R]}
+sheet: {columns: 3, gap: 2}
+";
+
+/// The frames of [`SMALL`].
+pub const FRAMES: [&str; 3] = ["frames/frame.0001.exr", "frames/frame.0002.exr", "frames/frame.0003.exr"];
+
 /// A pipeline in a folder of its own.
 pub struct Bench {
     pub folder: tempfile::TempDir,
+}
+
+/// [`SMALL`] in a folder of its own.
+pub fn small() -> Bench {
+    Bench::new(SMALL)
 }
 
 impl Bench {
@@ -37,14 +55,21 @@ impl Bench {
     pub fn command(&self, more: &[&str]) -> Command {
         let mut command = Command::new(program("turntable"));
         command.arg(self.pipeline()).arg("--out").arg(self.out()).args(more);
-        command.stdin(Stdio::null()).stdout(Stdio::null()).stderr(Stdio::piped());
         command
     }
 
     /// Runs to the end, which must be a good one.
     pub fn make(&self, more: &[&str]) {
-        let output = self.command(more).output().unwrap();
+        self.made(more);
+    }
+
+    /// Runs to the end and returns the names of the files made, the report left out.
+    pub fn made(&self, more: &[&str]) -> Vec<String> {
+        let output = self.command(&[more, &["--json"]].concat()).output().unwrap();
         assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
+        let summary: serde_json::Value = serde_json::from_slice(&output.stdout).unwrap();
+        let names = summary["made"].as_array().unwrap().iter().map(|v| v.as_str().unwrap().to_owned());
+        names.filter(|name| !name.starts_with("report.")).collect()
     }
 }
 
