@@ -31,7 +31,8 @@ fn gather(folder: &Path, files: &mut BTreeSet<PathBuf>) {
         let path = entry.path();
         if path.is_dir() {
             gather(&path, files);
-        } else if path.extension().is_some_and(|ending| ending == "rs") {
+        } else {
+            // Scripts and style sheets of pages, too.
             files.insert(path);
         }
     }

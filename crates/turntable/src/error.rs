@@ -72,14 +72,6 @@ pub enum TurntableError {
     /// A frame that was rendered could not be put in its place.
     #[error(transparent)]
     Write(hair_render::RenderError),
-    /// A frame that should be there cannot be read back.
-    #[error("{}: cannot be read back ({reason}); delete it and run again", path.display())]
-    Frame {
-        /// The frame.
-        path: PathBuf,
-        /// What is wrong with it.
-        reason: String,
-    },
     /// Frames could not be put together as `comp` says.
     #[error("comp: {0}")]
     Comp(#[from] frame_comp::CompError),

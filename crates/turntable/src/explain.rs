@@ -4,6 +4,7 @@ use std::path::Path;
 
 use serde::Serialize;
 
+use crate::left_out::left_out;
 use crate::{Plan, State, StepKind};
 
 /// One line of an explanation.
@@ -60,24 +61,15 @@ impl Plan {
         };
         let frames = due(|kind| matches!(kind, StepKind::Frame { .. }));
         let converts = due(|kind| *kind == StepKind::Convert);
-        // What is left out of the first variant; the others may differ in it.
-        let pipeline = &self.variants[0].pipeline;
-        let cases = [
+        let unneeded = [
             (!frames && !converts, "loading the groom", "nothing that is made needs it"),
             (!frames, "building the scene", "no frame has to be rendered"),
-            (pipeline.mesh.is_none(), "mesh", "the pipeline names none"),
-            (pipeline.lights.environment.is_none(), "environment", "the pipeline names none"),
-            (pipeline.lights.area.is_empty(), "area lights", "the pipeline names none"),
-            (pipeline.render.aovs.is_empty(), "light passes", "`render.aovs` asks for none"),
-            (pipeline.sheet.is_none(), "contact sheet", "the pipeline has no `sheet`"),
-            (pipeline.video.is_empty(), "film", "the pipeline has no `video`"),
-            (pipeline.page.is_none(), "page", "the pipeline has no `page`"),
-            (!pipeline.tone.frames, "PNG frames", "`tone.frames` is off"),
-            (pipeline.convert.is_empty(), "converted files", "`convert` lists none"),
         ];
-        let cases = cases.into_iter().filter(|(left_out, ..)| *left_out).map(|(_, what, why)| (what, why));
-        cases
-            .chain(crate::stage::left_out(pipeline))
+        let unneeded = unneeded.into_iter().filter(|(is_left_out, ..)| *is_left_out);
+        let asked = self.variants.iter().zip(&self.asked).filter(|(_, asked)| **asked);
+        unneeded
+            .map(|(_, what, why)| (what, why))
+            .chain(left_out(asked.map(|(variant, _)| &variant.pipeline)))
             .map(|(what, why)| Remark { what: what.into(), action: "leave out", why: why.into() })
             .collect()
     }
@@ -89,13 +81,20 @@ fn is_beside(one: &str, other: &str) -> bool {
     one.extension().is_some() && one.extension() == other.extension() && one.parent() == other.parent()
 }
 
+/// Why something that is made of frames waits.
+pub(crate) fn waits(count: usize) -> String {
+    let (frames, are) = if count == 1 { ("frame", "is") } else { ("frames", "are") };
+    format!("{count} {frames} it is made of {are} neither there nor asked for")
+}
+
 fn of_state(what: &str, state: &State) -> Remark {
     let (action, why) = match state {
         State::UpToDate => ("keep", "up to date".to_owned()),
         State::Missing => ("make", "not there".to_owned()),
         State::Stale => ("make", "inputs, settings or the file itself changed".to_owned()),
         State::Elsewhere(path) => ("move", format!("the same view is there as {}", path.display())),
-        State::NotAsked => ("leave out", "not asked for, or it needs frames that were not".to_owned()),
+        State::NotAsked => ("leave out", "not asked for".to_owned()),
+        State::Waiting(count) => ("leave out", waits(*count)),
     };
     Remark { what: what.to_owned(), action, why }
 }

@@ -5,6 +5,8 @@ use std::path::PathBuf;
 use std::str::FromStr;
 use std::time::{Duration, Instant};
 
+use hair_render::CheckpointEvery;
+
 use crate::FrameRange;
 
 /// What the caller asks for beside the file.
@@ -26,8 +28,8 @@ pub struct Options {
     pub threads: Option<usize>,
     /// Whether frames that were stopped half way are gone on with.
     pub resume: bool,
-    /// How often the work on a frame is kept while it is rendered; only when it has to stop when `None`.
-    pub checkpoint_every: Option<CheckpointEvery>,
+    /// How often the work on a frame is kept beside it while it is rendered; always when it has to stop.
+    pub checkpoint_every: CheckpointEvery,
     /// How often the frame being rendered is written to the folder `snapshots`, as far as it is; only when
     /// [`crate::Reporter::snapshot_asked`] when `None`.
     pub snapshot_every: Option<Duration>,
@@ -53,7 +55,7 @@ impl Default for Options {
             phases: BTreeSet::new(),
             threads: None,
             resume: true,
-            checkpoint_every: None,
+            checkpoint_every: CheckpointEvery::default(),
             snapshot_every: None,
             deadline: None,
             fail_fast: false,
@@ -95,45 +97,9 @@ impl FromStr for Phase {
     }
 }
 
-/// How often the work on a frame is kept while it is rendered.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CheckpointEvery {
-    /// After so much time.
-    Time(Duration),
-    /// After so many samples a pixel.
-    Samples(u32),
-}
-
-impl FromStr for CheckpointEvery {
-    type Err = String;
-
-    /// `300s` or `16spp`.
-    fn from_str(text: &str) -> Result<Self, String> {
-        let wanted =
-            || format!("`{text}`: expected seconds or samples a pixel above 0, as `300s` or `16spp`");
-        if let Some(samples) = text.strip_suffix("spp") {
-            let samples = samples.parse().ok().filter(|&samples| samples > 0);
-            return samples.map(CheckpointEvery::Samples).ok_or_else(wanted);
-        }
-        let seconds = text.strip_suffix('s').and_then(|seconds| seconds.parse::<f64>().ok());
-        let time = seconds.filter(|&seconds| seconds > 0.0).map(Duration::try_from_secs_f64);
-        time.and_then(Result::ok).map(CheckpointEvery::Time).ok_or_else(wanted)
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn intervals_are_seconds_or_samples() {
-        assert_eq!("16spp".parse(), Ok(CheckpointEvery::Samples(16)));
-        assert_eq!("2.5s".parse(), Ok(CheckpointEvery::Time(Duration::from_millis(2500))));
-        for bad in ["", "16", "0spp", "0s", "-1s", "nans", "infs", "1e400s", "s", "spp", "5m"] {
-            let refused = bad.parse::<CheckpointEvery>().unwrap_err();
-            assert!(refused.contains(&format!("`{bad}`")), "{refused}");
-        }
-    }
 
     #[test]
     fn no_phases_are_all() {

@@ -10,66 +10,7 @@ use crate::outputs::{self, Asked, Wanted};
 use crate::stage::{ingredients, views};
 use crate::stamp::Stamp;
 use crate::there::There;
-use crate::{Fault, Options, Phase, TurntableError, only};
-
-/// Whether an output has to be made.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub enum State {
-    /// It is there, whole, and made from what the pipeline says now.
-    UpToDate,
-    /// It is not there.
-    Missing,
-    /// It was made from something else, or its bytes are not those that were written.
-    Stale,
-    /// The same picture is there under another number or of another variant, in this file.
-    Elsewhere(PathBuf),
-    /// Nobody asked for it.
-    NotAsked,
-}
-
-/// What kind of output a step makes.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum StepKind {
-    /// The groom in another format.
-    Convert,
-    /// A rendered frame: its number, from 1, and its azimuth in degrees.
-    Frame {
-        /// Number, from 1.
-        number: u32,
-        /// Azimuth of the camera, degrees in 0..360.
-        azimuth: f64,
-    },
-    /// A frame as a PNG.
-    Preview {
-        /// Number of the frame, from 1.
-        number: u32,
-    },
-    /// The contact sheet.
-    Sheet,
-    /// A film: its place in `video`.
-    Video {
-        /// Which of the pipeline's films, from 0.
-        index: usize,
-    },
-    /// The page that shows the result.
-    Page,
-}
-
-/// One output.
-#[derive(Clone, Debug)]
-pub struct Step {
-    /// Which variant it shows, as a place among [`Plan::variants`]; none for what shows several.
-    pub variant: Option<usize>,
-    /// What it is.
-    pub kind: StepKind,
-    /// Its path inside the output folder.
-    pub output: PathBuf,
-    /// Whether it has to be made.
-    pub state: State,
-    pub(crate) digest: Digest,
-    /// The frames it is made of, as places among the frames of all variants.
-    pub(crate) needs: Vec<usize>,
-}
+use crate::{Fault, Options, Phase, State, Step, StepKind, TurntableError, only};
 
 /// A pipeline, checked, with the state of everything it makes. Making it reads inputs only to digest
 /// them: no groom is loaded and no scene built.
@@ -164,7 +105,7 @@ impl Plan {
     /// Whether there is nothing to make.
     #[must_use]
     pub fn is_up_to_date(&self) -> bool {
-        self.steps.iter().all(|s| matches!(s.state, State::UpToDate | State::NotAsked))
+        self.steps.iter().all(|s| matches!(s.state, State::UpToDate | State::NotAsked | State::Waiting(_)))
     }
 
     /// Whether this kind of work is asked for, of this variant or of all together.
@@ -198,9 +139,10 @@ impl Plan {
             let asked = self.is_asked(Phase::Outputs, variant);
             let mut step = self.made(manifest, variant, kind, output, digest, asked);
             // What needs frames that nobody asked for, and that are not there, waits for them.
-            let lacking = |&i: &usize| frames[i].state == State::NotAsked && !is_there(&frames[i]);
-            if step.state != State::UpToDate && needs.iter().any(lacking) {
-                step.state = State::NotAsked;
+            let lacking = |&&i: &&usize| frames[i].state == State::NotAsked && !is_there(&frames[i]);
+            let lacking = needs.iter().filter(lacking).count();
+            if matches!(step.state, State::Missing | State::Stale) && lacking > 0 {
+                step.state = State::Waiting(lacking);
             }
             step.needs = needs;
             step

@@ -18,6 +18,10 @@ pub(crate) fn of_frames(name: &str, variants: &[Variant], lines: &[FrameLine]) -
         let words = format!("{unknown} frames: below 2 samples a pixel nothing tells how exact they are");
         report = report.with_about("without a figure", words);
     }
+    let count = variants.iter().map(|v| v.pipeline.turntable.frames as usize).fold(0, usize::saturating_add);
+    if lines.len() < count {
+        report = report.with_about("frames", format!("{} of {count} are there", lines.len()));
+    }
     let threads = once(lines.iter().filter(|line| line.threads > 0).map(|line| line.threads.to_string()));
     if !threads.is_empty() {
         report = report.with_about("threads", threads);

@@ -38,7 +38,7 @@ pub struct FrameLine {
     /// Samples a pixel.
     pub spp: u32,
     /// Threads that rendered it.
-    pub threads: u32,
+    pub threads: usize,
     /// Seconds it took to render, now or then.
     pub seconds: f64,
     /// Estimated relative error; none below 2 samples a pixel.

@@ -20,7 +20,6 @@ const ARROWS: [(&str, &[&str]); 28] = [
     ("usd-layer", &[]),
     ("ogawa", &[]),
     ("gltf-bytes", &[]),
-    ("frame-view", &[]),
     ("video-encode", &["whole-file"]),
     ("flip-page", &["error-report", "whole-file"]),
     ("medulla-tables", &["fibre-scattering", "whole-file"]),
@@ -65,6 +64,7 @@ const ARROWS: [(&str, &[&str]); 28] = [
     ),
     ("look-sweep", &["fibre-material", "fibre-scattering", "groom", "hair-render"]),
     ("command-line", &["whole-file"]),
+    ("frame-view", &["command-line", "hair-render"]),
 ];
 
 /// What a crate must never depend on, whoever wrote it: only programs speak to people.

@@ -71,6 +71,7 @@ fn slips_are_named_with_file_line_and_column() {
         (["--frames", "13-20"], "the turntable has frames 1-12"),
         (["--frames", "5-1"], "runs backwards"),
         (["--set", "render.sppp=1"], "did you mean `spp`?"),
+        (["--json", "--progress=alf"], "--json and --progress would both write to stdout"),
         (
             ["--set", "render.spp=0"],
             "slip.yaml: render.spp: is 0, expected at least 1 (from `--set render.spp=0`)",

@@ -120,10 +120,10 @@ pub struct Keep {
     #[arg(long, overrides_with = "resume")]
     no_resume: bool,
 
-    /// How often a frame's work is kept beside it while it is rendered: after so many seconds (`300s`) or samples a
-    /// pixel (`16spp`). Signals and the time limit always keep it
-    #[arg(long, value_name = "300s|16spp")]
-    checkpoint_every: Option<CheckpointEvery>,
+    /// How often a frame's work is kept beside it while it is rendered: after so many seconds (`300s`), after so many
+    /// samples a pixel (`64spp`), or `never`. Signals and the time limit always keep it
+    #[arg(long, value_name = "WHEN", default_value = "300s")]
+    checkpoint_every: CheckpointEvery,
 
     /// Stop after so many seconds, keeping the work (exit code 75)
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]

@@ -9,9 +9,6 @@ mod json;
 mod progress;
 mod run;
 mod schema;
-// The same to the eye, whichever program renders.
-#[path = "../../hair-render/src/show.rs"]
-mod show;
 
 use std::process::ExitCode;
 

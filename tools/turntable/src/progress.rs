@@ -5,11 +5,11 @@ use std::sync::{Mutex, MutexGuard, PoisonError};
 use std::time::Duration;
 
 use command_line::Meter;
+use frame_view::Show;
 use hair_render::Frame;
 use turntable::{Event, Picture, Reporter};
 
 use crate::args::Tell;
-use crate::show::Show;
 
 /// Passes on what a run tells.
 pub struct Teller {

@@ -1,6 +1,7 @@
 //! Making what is missing or out of date.
 
-use command_line::{Outcome, snapshot_asked};
+use anyhow::ensure;
+use command_line::{Outcome, ProgressStyle, snapshot_asked};
 use turntable::{FrameLine, Plan, Summary, TurntableError};
 
 use crate::args::RunArgs;
@@ -9,14 +10,22 @@ use crate::{explain, json};
 
 /// Runs a pipeline, or says what a run would do.
 pub fn run(args: &RunArgs) -> anyhow::Result<Outcome> {
+    let makes_nothing = args.explain || args.check;
+    ensure!(
+        makes_nothing || !args.tell.json || args.tell.progress == ProgressStyle::Bar,
+        "--json and --progress would both write to stdout"
+    );
+    if !makes_nothing {
+        // From here on a signal is answered where the work can be kept, and with the exit code that asks for more.
+        command_line::on_interrupt_ask();
+        command_line::on_snapshot_ask();
+    }
     let plan = Plan::new(&args.pipeline(), args.options())?;
-    if args.explain || args.check {
+    if makes_nothing {
         explain::print(&plan, args.tell.json)?;
         let wanting = args.check && !plan.is_up_to_date();
         return Ok(if wanting { Outcome::Wanting } else { Outcome::Good });
     }
-    command_line::on_interrupt_ask();
-    command_line::on_snapshot_ask();
     let _ = snapshot_asked(); // whoever asked before there was anything to see
     let teller = Teller::new(&args.tell, plan.name());
     let result = plan.run(&teller);
@@ -54,15 +63,13 @@ fn closing_words(summary: &Summary) -> String {
         0 => String::new(),
         count => format!(", {count} failed"),
     };
-    if summary.made.is_empty() && summary.failed.is_empty() {
-        return format!("{folder}: everything is up to date");
-    }
     let worst = rendered.iter().filter_map(|f| f.relative_error).fold(0.0, f64::max);
     let errors =
         if worst > 0.0 { format!(", relative error at most {:.1} %", 100.0 * worst) } else { String::new() };
-    let (made, kept, count) = (summary.made.len(), summary.up_to_date, rendered.len());
-    format!(
-        "{folder}: {made} files made ({count} frames rendered{errors}), {kept} up to date{failed}, {:.1} s",
-        summary.seconds
-    )
+    let (made, kept, seconds) = (summary.made.len(), summary.up_to_date, summary.seconds);
+    let made = match rendered.len() {
+        _ if made == 0 => "nothing made".to_owned(),
+        count => format!("{made} files made ({count} frames rendered{errors})"),
+    };
+    format!("{folder}: {made}, {kept} up to date{failed}, {seconds:.1} s")
 }

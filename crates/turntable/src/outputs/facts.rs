@@ -2,13 +2,14 @@
 
 use std::path::Path;
 
+use hair_render::FrameHeader;
+
 use crate::expand::Variant;
-use crate::frame_file;
 use crate::schema::Caption;
 
 /// The lines under a frame on the sheet: the variant's name, then the figures.
 pub(super) fn lines(captions: &[Caption], variant: &Variant, number: u32, path: &Path) -> Vec<String> {
-    let header = frame_file::header(path);
+    let header = FrameHeader::read(path).ok();
     let mut lines = Vec::new();
     if captions.contains(&Caption::Variant) {
         lines.push(variant.id.clone());

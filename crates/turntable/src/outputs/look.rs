@@ -7,7 +7,7 @@ use hair_render::{Backdrop, Frame, Preview, ToneMapping};
 
 use crate::digest::Ingredients;
 use crate::schema::Pipeline;
-use crate::{TurntableError, frame_file, stage};
+use crate::{TurntableError, stage};
 
 /// What a variant's frames go through before anybody sees them.
 pub(super) struct Look {
@@ -41,12 +41,11 @@ impl Look {
         }
     }
 
-    /// A frame with its passes as they are weighed; they are read only where they count.
+    /// A frame with its passes as they are weighed.
     pub fn read(&self, path: &Path) -> Result<Frame, TurntableError> {
-        if self.weights.changed().next().is_none() {
-            return frame_file::read_beauty(path);
-        }
-        Ok(frame_comp::reweigh(&Frame::read_exr(path)?.0, &self.weights)?)
+        let (frame, _) = Frame::read_exr(path)?;
+        let is_weighed = self.weights.changed().next().is_some();
+        Ok(if is_weighed { frame_comp::reweigh(&frame, &self.weights)? } else { frame })
     }
 
     /// A frame that was weighed, in eight bits.
@@ -62,8 +61,7 @@ impl Look {
 
     /// The background as it comes out of the tone mapping.
     pub fn backdrop(&self) -> [u8; 3] {
-        let empty = frame_file::unmeasured((1, 1), vec![glam::Vec3::ZERO], vec![0.0]);
-        let rgba = hair_render::tone_map(&empty, &self.mapping).rgba;
+        let rgba = hair_render::tone_map(&Frame::empty(1, 1), &self.mapping).rgba;
         [rgba[0], rgba[1], rgba[2]]
     }
 }

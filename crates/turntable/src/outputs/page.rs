@@ -13,8 +13,9 @@ use super::parameters::parameters;
 use super::{Asked, Finished, Wanted, facts};
 use crate::digest::Ingredients;
 use crate::expand::Variant;
+use crate::left_out::left_out;
 use crate::schema::{Pipeline, ToneCurve};
-use crate::{Event, Step, StepKind, TurntableError, frame_file};
+use crate::{Event, Step, StepKind, TurntableError};
 
 /// Bytes that the passes of a page may take, about; above, those of every second, third, ... frame are kept.
 const MOST_BYTES: u64 = 64_000_000;
@@ -117,9 +118,7 @@ impl Making<'_> {
         let plate = match look.and_then(|look| look.plate.as_ref()) {
             Some(background @ Background::Plate(plate)) if plate.meaning() == Meaning::Display => {
                 let (width, height) = self.sized(pipeline.render.width, pipeline.render.height);
-                let count = width as usize * height as usize;
-                let empty =
-                    frame_file::unmeasured((width, height), vec![Vec3::ZERO; count], vec![0.0; count]);
+                let empty = Frame::empty(width, height);
                 let mapping = look.map(|look| look.mapping).unwrap_or_default();
                 let rgba = frame_comp::shown(&empty, Some(background), Fit::Fill, &mapping).rgba;
                 Some(Plate::new(width, height, &without_alpha(&rgba))?)
@@ -224,7 +223,9 @@ impl Making<'_> {
 
     /// The page with everything that its frames' headers tell.
     fn finished(&self, page: Page) -> Page {
-        let mut left_out = left_out(self.finished.variants);
+        let left_out = left_out(self.finished.variants.iter().map(|variant| &variant.pipeline));
+        let mut left_out: Vec<(String, String)> =
+            left_out.map(|(what, why)| (what.to_owned(), why.to_owned())).collect();
         if self.every > 1 {
             let why = format!("passes of all frames would take more than {} MB", MOST_BYTES / 1_000_000);
             left_out.push((format!("passes of all but every {}th frame", self.every), why));
@@ -278,24 +279,6 @@ fn axes(variants: &[Variant]) -> Vec<Axis> {
         }
     }
     axes
-}
-
-/// What no variant has, and why.
-fn left_out(variants: &[Variant]) -> Vec<(String, String)> {
-    let none = |has: fn(&Pipeline) -> bool| !variants.iter().any(|variant| has(&variant.pipeline));
-    let cases = [
-        (none(|p| p.mesh.is_some()), "mesh", "the pipeline names none"),
-        (none(|p| p.lights.environment.is_some()), "environment", "the pipeline names none"),
-        (none(|p| !p.lights.area.is_empty()), "area lights", "the pipeline names none"),
-        (none(|p| !p.render.aovs.is_empty()), "passes", "`render.aovs` asks for none"),
-        (none(|p| p.motion.is_some()), "motion", "the pipeline has no `motion`"),
-        (none(|p| !p.video.is_empty()), "film", "the pipeline has no `video`"),
-    ];
-    cases
-        .into_iter()
-        .filter(|(left_out, ..)| *left_out)
-        .map(|(_, what, why)| (what.to_owned(), why.to_owned()))
-        .collect()
 }
 
 fn without_alpha(rgba: &[u8]) -> Vec<u8> {

@@ -3,8 +3,9 @@
 use std::collections::BTreeSet;
 use std::path::Path;
 
+use hair_render::checkpoint_path;
+
 use super::Run;
-use super::frames::checkpoint_of;
 use crate::{Event, State, TurntableError};
 
 impl Run<'_> {
@@ -17,7 +18,9 @@ impl Run<'_> {
         make(output)?;
         whole_file::clear_stale_in(output);
         let mut seen = BTreeSet::from([output.clone()]);
-        for step in self.plan.steps().iter().filter(|s| s.state != State::NotAsked) {
+        for step in
+            self.plan.steps().iter().filter(|s| !matches!(s.state, State::NotAsked | State::Waiting(_)))
+        {
             let path = self.path(step);
             let folder = path.parent().unwrap_or(output);
             if !seen.contains(folder) {
@@ -30,7 +33,7 @@ impl Run<'_> {
             }
             if super::is_frame(step) && step.state == State::UpToDate {
                 // A slower process may have left it.
-                let _ = std::fs::remove_file(checkpoint_of(&path));
+                let _ = std::fs::remove_file(checkpoint_path(&path));
             }
         }
         Ok(())

@@ -1,18 +1,17 @@
-//! Rendering the frames that are due.
+//! Which frames are rendered, and in which order.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
 
-use hair_render::{Checkpoint, FrameReport, Metadata, RenderError, Rendered};
+use hair_render::{Frame, FrameHeader};
 
-use super::watch::{Left, Watch};
+use super::others::begun;
 use super::{Run, is_due};
-use crate::schema::Precision;
-use crate::stage::{self, Stage, View};
+use crate::stage::Stage;
 use crate::stamp::Stamp;
-use crate::{Event, Picture, Step, StepKind, TurntableError, frame_file};
+use crate::{Event, Step, StepKind, TurntableError};
 
 /// A frame to be rendered.
+#[derive(Clone, Copy)]
 pub(super) struct DueFrame<'a> {
     pub step: &'a Step,
     pub number: u32,
@@ -21,19 +20,16 @@ pub(super) struct DueFrame<'a> {
     seen: Option<Stamp>,
 }
 
-/// The frames to be rendered, by variant.
-pub(super) struct Due<'a>(BTreeMap<usize, Vec<DueFrame<'a>>>);
+/// Frames to be rendered, by variant.
+pub(super) type Due<'a> = BTreeMap<usize, Vec<DueFrame<'a>>>;
 
-impl<'a> Due<'a> {
-    pub fn of(&self, variant: usize) -> Option<&[DueFrame<'a>]> {
-        self.0.get(&variant).map(Vec::as_slice)
-    }
-}
-
-/// The checkpoint of a frame, beside it.
-pub(super) fn checkpoint_of(frame: &Path) -> PathBuf {
-    let stem = frame.file_stem().unwrap_or_default().to_string_lossy();
-    frame.with_file_name(format!(".{stem}.part.exr"))
+/// What to do about a frame that another run is at.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum OfOthers {
+    /// Leave it for later.
+    PutOff,
+    /// Render it all the same.
+    Render,
 }
 
 impl<'a> Run<'a> {
@@ -41,7 +37,7 @@ impl<'a> Run<'a> {
     pub(super) fn due_frames(&mut self) -> Result<Due<'a>, TurntableError> {
         let mut steps: Vec<&Step> = self.move_frames()?;
         steps.extend(self.plan.frames().filter(|step| is_due(step)));
-        let mut due: BTreeMap<usize, Vec<DueFrame>> = BTreeMap::new();
+        let mut due: Due = BTreeMap::new();
         for step in steps {
             let (StepKind::Frame { number, azimuth }, Some(variant)) = (step.kind, step.variant) else {
                 continue;
@@ -52,39 +48,64 @@ impl<'a> Run<'a> {
         due.values_mut().for_each(|frames| frames.sort_by_key(|frame| frame.number));
         self.to_render = due.iter().map(|(&variant, frames)| (variant, frames.len())).collect();
         self.of = due.values().map(Vec::len).sum::<usize>() as u32;
-        Ok(Due(due))
+        Ok(due)
     }
 
-    /// Renders frames of one variant. One that cannot be made does not keep the next from being made.
-    pub(super) fn frames(&mut self, variant: usize, frames: &[DueFrame<'a>]) -> Result<(), TurntableError> {
-        self.stop_if_asked()?;
+    /// Renders frames of one variant; returns those that were put off. One that cannot be made does not keep the next
+    /// from being made.
+    pub(super) fn frames(
+        &mut self,
+        variant: usize,
+        frames: &[DueFrame<'a>],
+        of_others: OfOthers,
+    ) -> Result<Vec<DueFrame<'a>>, TurntableError> {
         let plan = self.plan;
         let mut stage: Option<Stage> = None;
-        for frame in frames {
+        let mut put_off = Vec::new();
+        for (index, frame) in frames.iter().enumerate() {
             self.stop_if_asked()?;
             if self.is_done_meanwhile(frame) {
                 self.manifest.adopt(&frame.step.output, frame.step.digest.as_str())?;
                 self.reporter.event(&Event::FoundDone(&frame.step.output));
                 self.found_done += 1;
-            } else {
+                self.dealt_with(variant, 1);
+                continue;
+            }
+            let Some(_begun) = begun(&self.path(frame.step), of_others)? else {
+                put_off.push(*frame);
+                continue;
+            };
+            if stage.is_none() {
+                let pipeline = &plan.variants[variant].pipeline;
+                let set = Stage::set(pipeline, &plan.base, self.reporter, &mut self.store);
+                let left: Vec<&Step> =
+                    frames[index..].iter().chain(&put_off).map(|frame| frame.step).collect();
+                stage = self.go_on_without(&left, set)?;
                 if stage.is_none() {
-                    let pipeline = &plan.variants[variant].pipeline;
-                    stage = Some(Stage::set(pipeline, &plan.base, self.reporter, &mut self.store)?);
+                    // Without a scene there is none of the variant's frames.
+                    self.dealt_with(variant, left.len());
+                    return Ok(Vec::new());
                 }
-                let Some(stage) = &mut stage else { continue };
-                let result = self.frame(variant, stage, frame);
-                self.go_on_without(&[frame.step], result)?;
             }
-            self.index += 1;
-            if let Some(left) = self.to_render.get_mut(&variant) {
-                *left -= 1;
-            }
-            let left = self.to_render.iter().map(|(&variant, &left)| (variant, left));
-            if let Some(seconds) = self.estimate.left(left) {
-                self.reporter.event(&Event::Left(seconds));
-            }
+            let Some(stage) = &mut stage else { continue };
+            let result = self.frame(variant, stage, frame);
+            self.go_on_without(&[frame.step], result)?;
+            self.dealt_with(variant, 1);
         }
-        Ok(())
+        Ok(put_off)
+    }
+
+    /// Tells how far it is after `count` more frames of a variant, made or not.
+    fn dealt_with(&mut self, variant: usize, count: usize) {
+        self.index += count as u32;
+        if let Some(left) = self.to_render.get_mut(&variant) {
+            *left = left.saturating_sub(count);
+        }
+        self.reporter.advance(f64::from(self.index) / f64::from(self.of));
+        let left = self.to_render.iter().map(|(&variant, &left)| (variant, left));
+        if let Some(seconds) = self.estimate.left(left) {
+            self.reporter.event(&Event::Left(seconds));
+        }
     }
 
     /// Whether another process put the frame in its place since this run began.
@@ -93,8 +114,8 @@ impl<'a> Run<'a> {
         let now = Stamp::of(&path);
         now.is_some()
             && now != frame.seen
-            && frame_file::whole_header(&path).is_some_and(|h| h.digest == frame.step.digest.as_str())
-            && frame_file::unpacks(&path)
+            && FrameHeader::read(&path).is_ok_and(|header| header.digest == frame.step.digest.as_str())
+            && Frame::read_exr(&path).is_ok()
     }
 
     fn frame(&mut self, variant: usize, stage: &mut Stage, frame: &DueFrame) -> Result<(), TurntableError> {
@@ -112,101 +133,5 @@ impl<'a> Run<'a> {
             self.reporter.event(&Event::Warning(&format!("{frame}: {count} samples were not finite")));
         }
         Ok(())
-    }
-
-    fn render(
-        &self,
-        variant: usize,
-        stage: &mut Stage,
-        frame: &DueFrame,
-    ) -> Result<FrameReport, TurntableError> {
-        let (path, digest) = (self.path(frame.step), frame.step.digest.as_str());
-        let pipeline = &self.plan.variants[variant].pipeline;
-        let View { scene, camera, frame_rate, exposure_seconds } = stage.view(frame.number)?;
-        // The digest holds the pipeline's seed and the view: the noise of views must differ.
-        let seed = frame.step.digest.number();
-        let settings = stage::render_settings(&pipeline.render, seed, self.plan.options.threads);
-        let extra = [("turntable", self.plan.name.clone()), ("azimuth", frame.azimuth.to_string())];
-        let metadata = Metadata {
-            command: self.plan.options.command.clone(),
-            digest: digest.to_owned(),
-            camera: Some(camera.at(0.5)),
-            precision: match pipeline.render.precision {
-                Precision::Float => hair_render::Precision::Float,
-                Precision::Half => hair_render::Precision::Half,
-            },
-            frame_rate,
-            exposure_seconds,
-            extra: extra.into_iter().map(|(key, value)| (key.to_owned(), value)).collect(),
-            ..Metadata::default()
-        };
-        let (checkpoint, snapshot) = (checkpoint_of(&path), self.snapshot_of(frame.step));
-        let frames: Vec<(usize, usize)> = self.to_render.iter().map(|(&v, &left)| (v, left)).collect();
-        let watch = Watch::new(
-            self.reporter,
-            &self.plan.options,
-            (self.index, self.of),
-            (checkpoint.clone(), snapshot.clone()),
-            &metadata,
-            Left { estimate: &self.estimate, variant, frames: &frames },
-        );
-        let render = |start| hair_render::render_from(scene, &camera, &settings, digest, start, &watch);
-        let rendered = match render(self.start(&checkpoint, digest)) {
-            Err(error @ RenderError::OtherCheckpoint { .. }) => {
-                self.drop_checkpoint(&checkpoint, &error.to_string());
-                render(None)
-            }
-            rendered => rendered,
-        };
-        match rendered? {
-            Rendered::Done(picture) => {
-                picture.write_exr(&path, &metadata).map_err(TurntableError::Write)?;
-                for file in [&checkpoint, &snapshot] {
-                    // Mostly there is none.
-                    let _ = std::fs::remove_file(file);
-                }
-                self.reporter.picture(Picture::Finished, &picture);
-                Ok(picture.report)
-            }
-            Rendered::Stopped(so_far) => {
-                so_far.write(&checkpoint).map_err(TurntableError::Write)?;
-                Err(TurntableError::Interrupted)
-            }
-        }
-    }
-
-    /// What an earlier run left of this frame.
-    fn start(&self, path: &Path, digest: &str) -> Option<Checkpoint> {
-        if !self.plan.options.resume || !path.exists() {
-            return None;
-        }
-        match Checkpoint::read(path) {
-            Ok(found) if found.digest() == digest => {
-                let (spp, of) = (found.spp(), found.spp_asked());
-                self.reporter.event(&Event::Resumed { spp, of });
-                Some(found)
-            }
-            Ok(_) => {
-                self.drop_checkpoint(path, "it is of other inputs or settings");
-                None
-            }
-            Err(error) => {
-                self.drop_checkpoint(path, &error.to_string());
-                None
-            }
-        }
-    }
-
-    fn drop_checkpoint(&self, path: &Path, why: &str) {
-        let name = path.strip_prefix(&self.plan.output).unwrap_or(path).display();
-        let text = format!("{name}: the checkpoint is dropped, and the frame begun anew: {why}");
-        self.reporter.event(&Event::Warning(&text));
-        let _ = std::fs::remove_file(path);
-    }
-
-    /// Where a frame is shown while it is rendered: not beside the frames, where it would be taken for one.
-    fn snapshot_of(&self, step: &Step) -> PathBuf {
-        let inner = step.output.strip_prefix("frames").unwrap_or(&step.output);
-        self.plan.output.join("snapshots").join(inner)
     }
 }

@@ -5,6 +5,8 @@ mod estimate;
 mod folders;
 mod frames;
 mod moves;
+mod one_frame;
+mod others;
 mod outputs;
 mod reports;
 mod watch;
@@ -14,6 +16,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use estimate::Estimate;
+use frames::{Due, OfOthers};
 
 use crate::manifest::Manifest;
 use crate::stage::Store;
@@ -111,25 +114,26 @@ impl<'a> Run<'a> {
             self.manifest.adopt(output, digest)?;
         }
         let due = self.due_frames()?;
+        let mut put_off = Due::new();
         for variant in 0..self.plan.variants.len() {
-            self.variant(variant, &due)?;
+            self.convert(variant)?;
+            if let Some(frames) = due.get(&variant) {
+                put_off.insert(variant, self.frames(variant, frames, OfOthers::PutOff)?);
+            }
+        }
+        for (variant, frames) in put_off {
+            self.frames(variant, &frames, OfOthers::Render)?;
         }
         self.outputs()
     }
 
-    /// Makes what is due of one variant: converted files and frames.
-    fn variant(&mut self, index: usize, due: &frames::Due<'a>) -> Result<(), TurntableError> {
-        let plan = self.plan;
-        let own = plan.steps().iter().filter(|s| s.variant == Some(index));
+    /// Makes the converted files that are due of one variant.
+    fn convert(&mut self, variant: usize) -> Result<(), TurntableError> {
+        let own = self.plan.steps().iter().filter(|s| s.variant == Some(variant));
         let converts: Vec<&Step> = own.filter(|s| s.kind == StepKind::Convert && is_due(s)).collect();
         if !converts.is_empty() {
-            let result = self.converts(index, &converts);
+            let result = self.converts(variant, &converts);
             self.go_on_without(&converts, result)?;
-        }
-        if let Some(frames) = due.of(index) {
-            let steps: Vec<&Step> = frames.iter().map(|frame| frame.step).collect();
-            let result = self.frames(index, frames);
-            self.go_on_without(&steps, result)?;
         }
         Ok(())
     }

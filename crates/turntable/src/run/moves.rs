@@ -3,6 +3,8 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use hair_render::FrameHeader;
+
 use super::Run;
 use crate::{State, Step, TurntableError};
 
@@ -48,8 +50,7 @@ impl<'a> Run<'a> {
     /// False when the frame is there no more, or no more what it was: another process may work in this folder too.
     fn copy(&mut self, step: &Step, from: &Path) -> Result<bool, TurntableError> {
         self.stop_if_asked()?;
-        let is_same =
-            || crate::frame_file::whole_header(from).is_some_and(|h| h.digest == step.digest.as_str());
+        let is_same = || FrameHeader::read(from).is_ok_and(|header| header.digest == step.digest.as_str());
         let Some(bytes) = is_same().then(|| std::fs::read(from).ok()).flatten() else { return Ok(false) };
         whole_file::write_whole(self.path(step), &bytes)?;
         self.made(step)?;

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::{Run, is_due};
 use crate::outputs::{self, Finished};
-use crate::{Failure, Step, StepKind, TurntableError};
+use crate::{Event, Failure, State, Step, StepKind, TurntableError, explain};
 
 impl Run<'_> {
     /// Makes what is due of what is made of frames.
@@ -22,6 +22,12 @@ impl Run<'_> {
         };
         let is_output = |kind: StepKind| !matches!(kind, StepKind::Convert | StepKind::Frame { .. });
         let lost: BTreeSet<PathBuf> = self.failed.iter().flat_map(|f| f.outputs.iter().cloned()).collect();
+        for step in plan.steps() {
+            if let State::Waiting(count) = step.state {
+                let words = format!("{}: left out, {}", step.output.display(), explain::waits(count));
+                self.reporter.event(&Event::Warning(&words));
+            }
+        }
         for step in plan.steps().iter().filter(|s| is_output(s.kind) && is_due(s)) {
             self.stop_if_asked()?;
             let lacks = step.needs.iter().filter_map(|&at| frames.get(at)).find(|f| lost.contains(&f.output));

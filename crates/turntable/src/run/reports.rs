@@ -2,8 +2,9 @@
 
 use std::path::Path;
 
+use hair_render::FrameHeader;
+
 use super::Run;
-use crate::frame_file::{self, FrameHeader};
 use crate::{FrameLine, Phase, Step, StepKind, TurntableError, report};
 
 impl Run<'_> {
@@ -11,8 +12,8 @@ impl Run<'_> {
     pub(super) fn frame_lines(&self) -> Vec<FrameLine> {
         let line = |step: &Step| {
             let StepKind::Frame { number, azimuth } = step.kind else { return None };
-            let header = frame_file::header(&self.path(step))?;
-            let FrameHeader { digest, spp, seconds, relative_error, threads } = header;
+            let header = FrameHeader::read(&self.path(step)).ok()?;
+            let FrameHeader { digest, spp, seconds, relative_error, threads, .. } = header;
             (digest == step.digest.as_str()).then_some(FrameLine {
                 variant: self.plan.variants.get(step.variant?)?.id.clone(),
                 number,

@@ -4,10 +4,10 @@ use std::path::{Path, PathBuf};
 use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
-use hair_render::{Metadata, Next, Progress, SoFar};
+use hair_render::{CheckpointTimer, Metadata, Next, Progress, SoFar};
 
 use super::estimate::Estimate;
-use crate::{CheckpointEvery, Event, Options, Picture, Reporter};
+use crate::{Event, Options, Picture, Reporter};
 
 /// Passes the renderer's progress on, and keeps what is rendered when it is time to.
 pub(super) struct Watch<'a> {
@@ -33,8 +33,7 @@ pub(super) struct Left<'a> {
 
 /// When this frame was last kept.
 struct Kept {
-    at: Instant,
-    spp: u32,
+    checkpoint: CheckpointTimer,
     snapshot: Instant,
 }
 
@@ -47,22 +46,16 @@ impl<'a> Watch<'a> {
         metadata: &'a Metadata,
         left: Left<'a>,
     ) -> Self {
-        let now = Instant::now();
-        let kept = Mutex::new(Kept { at: now, spp: 0, snapshot: now });
+        let checkpoint_timer = CheckpointTimer::new(options.checkpoint_every, 0);
+        let kept = Mutex::new(Kept { checkpoint: checkpoint_timer, snapshot: Instant::now() });
         Watch { reporter, options, index, of, checkpoint, snapshot, metadata, left, kept }
     }
 
     fn keep_when_due(&self, so_far: &SoFar, kept: &mut Kept) {
-        let is_due = match self.options.checkpoint_every {
-            None => false,
-            Some(CheckpointEvery::Time(time)) => kept.at.elapsed() >= time,
-            Some(CheckpointEvery::Samples(samples)) => so_far.spp().saturating_sub(kept.spp) >= samples,
-        };
-        if is_due {
-            if let Err(error) = so_far.checkpoint().write(&self.checkpoint) {
-                self.warn(&format!("a checkpoint could not be written: {error}"));
-            }
-            (kept.at, kept.spp) = (Instant::now(), so_far.spp());
+        if kept.checkpoint.is_due(so_far.spp())
+            && let Err(error) = so_far.checkpoint().write(&self.checkpoint)
+        {
+            self.warn(&format!("a checkpoint could not be written: {error}"));
         }
     }
 

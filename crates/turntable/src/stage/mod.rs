@@ -14,7 +14,6 @@ mod cornell;
 mod fur;
 mod hair;
 pub(crate) mod ingredients;
-mod left_out;
 mod lights;
 pub(crate) mod material;
 mod meshes;
@@ -36,7 +35,6 @@ use hair_render::{
 };
 use moving_scene::{Exposure, GroomAt};
 
-pub(crate) use left_out::left_out;
 pub(crate) use settings::{render_settings, tone_mapping};
 pub(crate) use store::Store;
 
