@@ -8,8 +8,8 @@ use command_line::{Meter, Outcome, ProgressStyle};
 use frame_view::Show;
 use glam::{DVec3, Vec3};
 use hair_render::{
-    Backdrop, Checkpoint, Frame, Rendered, Scene, SceneDescription, ToneMapping, check_output, checkpoint_path,
-    tone_map,
+    Backdrop, Checkpoint, Frame, Rendered, Scene, SceneDescription, ToneMapping, check_output,
+    checkpoint_path, tone_map,
 };
 use whole_file::clear_stale;
 
