@@ -52,7 +52,7 @@ pub enum StepKind {
 /// One output.
 #[derive(Clone, Debug)]
 pub struct Step {
-    /// Which variant it shows, as a place among [`Plan::variants`]; none for what shows several.
+    /// Which variant it shows, as a place among [`crate::Plan::variants`]; none for what shows several.
     pub variant: Option<usize>,
     /// What it is.
     pub kind: StepKind,
