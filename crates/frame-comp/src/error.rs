@@ -47,7 +47,7 @@ pub enum CompError {
         source: std::io::Error,
     },
     /// A plate is no picture, or none that is read here.
-    #[error("{}: not a picture that can be put behind a frame: {reason}", path.display())]
+    #[error("{}: not a picture that can be put behind a frame (.png, .jpg, .exr, .hdr): {reason}", path.display())]
     Plate {
         /// The file.
         path: PathBuf,

@@ -5,7 +5,7 @@ use std::io::BufReader;
 use std::path::Path;
 
 use glam::Vec3;
-use hair_render::{Frame, LightPicture, read_light};
+use hair_render::{Frame, LightPicture, RenderError, read_light};
 use image::metadata::Orientation;
 use image::{ImageDecoder, ImageReader, Limits};
 
@@ -54,7 +54,10 @@ impl Plate {
         let reader = ImageReader::new(BufReader::new(File::open(path).map_err(io)?));
         let reader = reader.with_guessed_format().map_err(io)?;
         if !matches!(reader.format(), Some(image::ImageFormat::Png | image::ImageFormat::Jpeg)) {
-            let LightPicture { width, height, pixels } = read_light(path)?;
+            let LightPicture { width, height, pixels } = read_light(path).map_err(|other| match other {
+                RenderError::UnsupportedPicture { reason, .. } => fault(reason),
+                other => CompError::Light(other),
+            })?;
             return Plate::new(width, height, pixels, Meaning::Light)
                 .ok_or_else(|| fault("it is empty".into()));
         }

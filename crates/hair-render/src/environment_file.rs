@@ -63,7 +63,7 @@ pub fn read_light(path: &Path) -> Result<LightPicture, RenderError> {
     } else if magic.starts_with(b"#?") {
         read_hdr
     } else {
-        let reason = "expected a Radiance .hdr or an OpenEXR file".into();
+        let reason = "it is neither a Radiance .hdr nor an OpenEXR file".into();
         return Err(RenderError::UnsupportedPicture { path: path.to_owned(), reason });
     };
     // The decoders are other people's: one that panics on a broken file must not end the program.
