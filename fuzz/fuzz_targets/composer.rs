@@ -30,6 +30,10 @@ fuzz_target!(|bytes: &[u8]| {
     // What could be read can be written, and reads back to the same.
     if let Some(value) = reading.value.filter(|value| depth(value) < 100) {
         let written = strict_yaml::write(&value).expect("JSON is YAML");
+        // Variables may make more of a text than a file may hold.
+        if written.len() > 1 << 20 || written.matches(['[', '{']).count() > 128 {
+            return;
+        }
         let again = Document::open_with(Path::new("a"), &|_| Ok(written.clone().into_bytes()));
         let again = again.expect("what was written can be read").with_variables().expect("no variables").0;
         assert_eq!(again.read::<serde_json::Value>().value, Some(value), "{written}");

@@ -5,6 +5,7 @@ use std::cell::{Cell, RefCell};
 use serde::de::{DeserializeSeed, Deserializer, EnumAccess, MapAccess, SeqAccess, Visitor};
 
 use crate::fault::{Place, YamlFault, place_of};
+use crate::letters;
 use crate::read::{check_nesting, in_words, says_nothing};
 use crate::tree::{Map, Node, Origin, Value};
 
@@ -22,11 +23,14 @@ pub(crate) fn tree(text: &str, source: usize) -> Result<Node, YamlFault> {
     check_nesting(text)?;
     let (left, own) = (Cell::new(MOST_VALUES), RefCell::new(None));
     let build = Build { origin, left: &left, own: &own };
-    build.deserialize(serde_yaml::Deserializer::from_str(text)).map_err(|error| {
+    let read = build.deserialize(serde_yaml::Deserializer::from_str(text)).map_err(|error| {
         let place = place_of(&error);
         let message = own.take().unwrap_or_else(|| in_words(&error) + bare_name(text, place));
         YamlFault { place, message }
-    })
+    });
+    let mut node = read?;
+    letters::note(text, &mut node);
+    Ok(node)
 }
 
 /// A hint, where a `${name}` stands bare within brackets: its brace opens a mapping there.

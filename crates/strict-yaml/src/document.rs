@@ -8,50 +8,23 @@ use std::sync::Arc;
 use serde::de::DeserializeOwned;
 
 use crate::build::{MOST_VALUES, tree};
-use crate::fault::Fault;
+use crate::fault::{DocumentError, Fault};
 use crate::include::{Gatherer, LONGEST, normal};
+use crate::read::says_nothing;
+use crate::reading::{self, Reading};
 use crate::setting::Setting;
 use crate::source::{Part, Source, Sources};
 use crate::tree::{Map, Node, Value, merge};
-use crate::typed::{self, Reading};
 use crate::variables::{Variables, count};
 
 /// A document: a file with those it includes below it and settings over it. Every value knows where it was
 /// written.
 #[derive(Clone, Debug)]
 pub struct Document {
-    root: Node,
-    sources: Arc<Sources>,
+    pub(crate) root: Node,
+    pub(crate) sources: Arc<Sources>,
     files: Arc<[PathBuf]>,
 }
-
-/// Why a document could not be put together.
-#[derive(Debug)]
-pub enum DocumentError {
-    /// The file itself could not be read.
-    Io {
-        /// The file.
-        file: PathBuf,
-        /// What the system said.
-        source: std::io::Error,
-    },
-    /// Everything wrong with it and the files it includes.
-    Faults(Vec<Fault>),
-}
-
-impl std::fmt::Display for DocumentError {
-    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        match self {
-            DocumentError::Io { file, source } => write!(f, "{}: could not read: {source}", file.display()),
-            DocumentError::Faults(faults) => {
-                let lines: Vec<String> = faults.iter().map(ToString::to_string).collect();
-                f.write_str(&lines.join("\n"))
-            }
-        }
-    }
-}
-
-impl std::error::Error for DocumentError {}
 
 impl Document {
     /// Reads `file` and those it includes.
@@ -76,13 +49,10 @@ impl Document {
     ) -> Result<Document, DocumentError> {
         let bytes = load(file).map_err(|source| DocumentError::Io { file: file.to_owned(), source })?;
         let (sources, faults, files) = (Sources::default(), Vec::new(), Vec::new());
-        let mut gatherer = Gatherer { load, sources, faults, files };
+        let values_left = Some(MOST_VALUES);
+        let mut gatherer = Gatherer { load, sources, faults, files, values_left };
         let root = gatherer.gather(bytes, PathBuf::new(), &[normal(file)]);
-        let Gatherer { sources, mut faults, files, .. } = gatherer;
-        if count(&root) > MOST_VALUES {
-            let message = format!("comes to more than {MOST_VALUES} values with what it includes");
-            faults.push(Fault { file: file.to_owned(), place: None, key: String::new(), message });
-        }
+        let Gatherer { sources, faults, files, .. } = gatherer;
         if !faults.is_empty() {
             return Err(DocumentError::Faults(faults));
         }
@@ -118,9 +88,10 @@ impl Document {
     /// Lays a setting over the document.
     ///
     /// # Errors
-    /// A [`Fault`] that names the setting: no `=`, no YAML, no such entry, or keys below a single value.
+    /// A [`Fault`] that names the setting: no `=`, no YAML, a remark (`#...`), no such entry, or keys below a single
+    /// value.
     pub fn lay(&mut self, setting: &Setting) -> Result<(), Fault> {
-        let file = self.sources.0.first().map(|first| first.file.clone()).unwrap_or_default();
+        let file = self.sources.texts.first().map(|first| first.file.clone()).unwrap_or_default();
         let words = setting.words();
         let key = setting.parts().map_or_else(|_| String::new(), |(steps, _)| steps.join("."));
         let fault = |message: String| {
@@ -131,7 +102,10 @@ impl Document {
         if steps.first() == Some(&"include") {
             return Err(fault("files are included by files alone".into()));
         }
-        let index = self.sources.0.len();
+        if says_nothing(value) && !value.trim().is_empty() {
+            return Err(fault(format!("`{}` is a remark to YAML; put it in quotes", value.trim())));
+        }
+        let index = self.sources.texts.len();
         let node = tree(value, index).map_err(|found| fault(found.message))?;
         let source = Source {
             file: file.clone(),
@@ -204,7 +178,7 @@ impl Document {
     /// Reads a `T`, as far as that can be done: see [`Reading`].
     #[must_use]
     pub fn read<T: DeserializeOwned>(&self) -> Reading<T> {
-        typed::read(&self.sources, &self.root)
+        reading::read(&self.sources, &self.root)
     }
 
     /// A fault of what stands at `key` (as `render.spp`), told where that was written; where it is not
@@ -227,7 +201,7 @@ impl Document {
         let below = last_source(node);
         if is_there
             && below > node.origin.source
-            && let Some(setting) = self.sources.0.get(below).and_then(|source| source.setting.as_deref())
+            && let Some(setting) = self.sources.texts.get(below).and_then(|source| source.setting.as_deref())
         {
             fault.message += &format!(" (from `{setting}`)");
         }
@@ -244,33 +218,6 @@ impl Document {
     #[must_use]
     pub fn fault_at_key(&self, node: &Node, key: &str, message: String) -> Fault {
         self.sources.fault(&node.origin, Part::Key, key, message)
-    }
-
-    /// The folder of the file in which a node was written, from the folder of the document's first file:
-    /// empty for what was written there or in a setting. A path in the node is relative to it.
-    #[must_use]
-    pub fn folder_of(&self, node: &Node) -> &Path {
-        self.sources.0.get(node.origin.source).map_or(Path::new(""), |source| &source.folder)
-    }
-
-    /// Makes the paths at these keys count from the folder of the document's first file, wherever they were
-    /// written: they are joined to [`Document::folder_of`] them. A `*` stands for every entry.
-    pub fn join_folders(&mut self, keys: &[&str]) {
-        for key in keys {
-            let steps: Vec<&str> = key.split('.').collect();
-            join_folder(&mut self.root, &steps, &self.sources);
-        }
-    }
-
-    /// A single value letter by letter as it was written; `None` for lists and mappings.
-    #[must_use]
-    pub fn written(&self, node: &Node) -> Option<String> {
-        match &node.value {
-            Value::Text(text) => Some(text.clone()),
-            Value::List(_) | Value::Map(_) => None,
-            Value::Null => Some(String::new()),
-            _ => self.sources.written(&node.origin),
-        }
     }
 }
 
@@ -290,26 +237,4 @@ fn last_source(node: &Node) -> usize {
         _ => &mut std::iter::empty(),
     };
     below.map(last_source).max().unwrap_or_default().max(node.origin.source)
-}
-
-fn join_folder(node: &mut Node, steps: &[&str], sources: &Sources) {
-    match (steps, &mut node.value) {
-        ([], Value::Text(path)) => {
-            let folder = sources.0.get(node.origin.source).map(|source| source.folder.as_path());
-            if let Some(joined) = folder.map(|folder| normal(&folder.join(&*path)))
-                && folder != Some(Path::new(""))
-            {
-                *path = joined.to_string_lossy().into_owned();
-            }
-        }
-        (["*", rest @ ..], Value::List(list)) => {
-            list.iter_mut().for_each(|node| join_folder(node, rest, sources));
-        }
-        ([first, rest @ ..], _) => {
-            if let Some(child) = node.child_mut(first) {
-                join_folder(child, rest, sources);
-            }
-        }
-        _ => {}
-    }
 }

@@ -2,6 +2,9 @@
 
 use std::path::PathBuf;
 
+/// More faults than this are not told at once.
+pub(crate) const MOST_FAULTS: usize = 100;
+
 /// A place in a text, both counted from 1.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Place {
@@ -56,6 +59,34 @@ impl std::fmt::Display for Fault {
         write!(f, " {}", self.message)
     }
 }
+
+/// Why a document could not be put together.
+#[derive(Debug)]
+pub enum DocumentError {
+    /// The file itself could not be read.
+    Io {
+        /// The file.
+        file: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Everything wrong with it and the files it includes.
+    Faults(Vec<Fault>),
+}
+
+impl std::fmt::Display for DocumentError {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            DocumentError::Io { file, source } => write!(f, "{}: could not read: {source}", file.display()),
+            DocumentError::Faults(faults) => {
+                let lines: Vec<String> = faults.iter().map(ToString::to_string).collect();
+                f.write_str(&lines.join("\n"))
+            }
+        }
+    }
+}
+
+impl std::error::Error for DocumentError {}
 
 pub(crate) fn place_of(error: &serde_yaml::Error) -> Option<Place> {
     error.location().map(|l| Place { line: l.line(), column: l.column() })

@@ -2,10 +2,11 @@
 
 use std::path::{Component, Path, PathBuf};
 
-use crate::build::tree;
+use crate::build::{MOST_VALUES, tree};
 use crate::fault::Fault;
 use crate::source::{Part, Source, Sources};
 use crate::tree::{Map, Node, Origin, Value, merge};
+use crate::variables::count;
 
 /// The key by which a file names those it lies over.
 const INCLUDE: &str = "include";
@@ -26,6 +27,8 @@ pub(crate) struct Gatherer<'l> {
     pub(crate) faults: Vec<Fault>,
     /// Every file read, once.
     pub(crate) files: Vec<PathBuf>,
+    /// How many values may still come; `None` when there were too many, and no more is read.
+    pub(crate) values_left: Option<usize>,
 }
 
 impl Gatherer<'_> {
@@ -39,7 +42,7 @@ impl Gatherer<'_> {
         let mut plain = |place, message| {
             self.faults.push(Fault { file: file.clone(), place, key: String::new(), message });
         };
-        let index = self.sources.0.len();
+        let index = self.sources.texts.len();
         let mut text = String::new();
         match utf8(bytes) {
             Ok(good) => text = good,
@@ -57,6 +60,14 @@ impl Gatherer<'_> {
         }
         if !node.is_map() {
             plain(Some((1, 1)), format!("is {}, expected keys and values", node.words()));
+            node.value = Value::Map(Map::new());
+        }
+        self.values_left = self.values_left.and_then(|left| left.checked_sub(count(&node)));
+        if self.values_left.is_none() {
+            plain(
+                None,
+                format!("comes to more than {MOST_VALUES} values with the files that were read before it"),
+            );
             node.value = Value::Map(Map::new());
         }
         self.sources.add(Source { file, text, folder: folder.clone(), setting: None });
@@ -92,6 +103,7 @@ impl Gatherer<'_> {
         let above = chain.last().and_then(|file| file.parent()).unwrap_or(Path::new(""));
         let path = normal(&above.join(name));
         let shown = path.display();
+        self.values_left?;
         if chain.contains(&path) {
             self.fault(entry, format!("`{shown}` includes itself, by {}", names(chain)));
             return None;
@@ -100,9 +112,9 @@ impl Gatherer<'_> {
             self.fault(entry, format!("files include each other more than {DEEPEST} deep"));
             return None;
         }
-        if self.sources.0.len() >= MOST_FILES {
+        if self.sources.texts.len() >= MOST_FILES {
             // Once is enough.
-            if self.sources.0.len() == MOST_FILES {
+            if self.sources.texts.len() == MOST_FILES {
                 self.fault(entry, format!("more than {MOST_FILES} files are included"));
                 self.sources.add(Source::empty());
             }

@@ -9,28 +9,18 @@ use crate::fault::{Place, place_of};
 /// The parser itself is asked: it is sent down the path and refused there, and it says where.
 #[must_use]
 pub fn locate(text: &str, path: &[&str]) -> Option<Place> {
-    descend(text, path, End::Value).1
+    descend(text, path, End::Value)
 }
 
 /// Where the key at the end of `path` stands.
 pub(crate) fn locate_key(text: &str, path: &[&str]) -> Option<Place> {
-    descend(text, path, End::Key).1
+    descend(text, path, End::Key)
 }
 
-/// The scalar at the end of `path`, letter by letter.
-pub(crate) fn scalar(text: &str, path: &[&str]) -> Option<String> {
-    descend(text, path, End::Scalar).0
-}
-
-fn descend(text: &str, path: &[&str], end: End) -> (Option<String>, Option<Place>) {
-    let descent = Descent { path, end };
-    match descent.deserialize(serde_yaml::Deserializer::from_str(text)) {
-        Ok(found) => (found, None),
-        Err(error) => {
-            let arrived = error.to_string().contains(ARRIVED);
-            (None, place_of(&error).filter(|_| arrived))
-        }
-    }
+fn descend(text: &str, path: &[&str], end: End) -> Option<Place> {
+    let error = Descent { path, end }.deserialize(serde_yaml::Deserializer::from_str(text)).err()?;
+    let arrived = error.to_string().contains(ARRIVED);
+    place_of(&error).filter(|_| arrived)
 }
 
 pub(crate) const ARRIVED: &str = "\u{1}arrived";
@@ -42,11 +32,9 @@ enum End {
     Value,
     /// Where its key is.
     Key,
-    /// What was written.
-    Scalar,
 }
 
-/// Goes down one path, fails at its end (or reads it) and ignores everything else.
+/// Goes down one path, fails at its end and ignores everything else.
 #[derive(Clone, Copy)]
 struct Descent<'p> {
     path: &'p [&'p str],
@@ -54,58 +42,45 @@ struct Descent<'p> {
 }
 
 impl<'de> DeserializeSeed<'de> for Descent<'_> {
-    type Value = Option<String>;
+    type Value = ();
 
-    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<Self::Value, D::Error> {
-        if self.path.is_empty() && self.end == End::Scalar {
-            deserializer.deserialize_str(self)
-        } else {
-            deserializer.deserialize_any(self)
-        }
+    fn deserialize<D: Deserializer<'de>>(self, deserializer: D) -> Result<(), D::Error> {
+        deserializer.deserialize_any(self)
     }
 }
 
 impl<'de> Visitor<'de> for Descent<'_> {
-    type Value = Option<String>;
+    type Value = ();
 
     fn expecting(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         f.write_str(if self.path.is_empty() { ARRIVED } else { "a key or entry on the way" })
     }
 
-    fn visit_str<E: serde::de::Error>(self, text: &str) -> Result<Self::Value, E> {
-        if self.path.is_empty() && self.end == End::Scalar {
-            return Ok(Some(text.to_owned()));
-        }
-        Err(E::invalid_type(serde::de::Unexpected::Str(text), &self))
-    }
-
-    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<Self::Value, A::Error> {
+    fn visit_map<A: MapAccess<'de>>(self, mut map: A) -> Result<(), A::Error> {
         let Some((first, rest)) = self.path.split_first() else { return Err(A::Error::custom(ARRIVED)) };
         let refuse = rest.is_empty() && self.end == End::Key;
-        let mut found = None;
         while let Some(here) = map.next_key_seed(Key { wanted: first, refuse })? {
             if here {
-                found = map.next_value_seed(Descent { path: rest, end: self.end })?;
+                map.next_value_seed(Descent { path: rest, end: self.end })?;
             } else {
                 map.next_value::<IgnoredAny>()?;
             }
         }
-        Ok(found)
+        Ok(())
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<Self::Value, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut list: A) -> Result<(), A::Error> {
         let Some((first, rest)) = self.path.split_first() else { return Err(A::Error::custom(ARRIVED)) };
         let wanted = first.parse::<usize>().unwrap_or(usize::MAX);
         let mut index = 0;
-        let mut found = None;
         loop {
-            if index == wanted {
-                match list.next_element_seed(Descent { path: rest, end: self.end })? {
-                    Some(here) => found = here,
-                    None => return Ok(found),
-                }
-            } else if list.next_element::<IgnoredAny>()?.is_none() {
-                return Ok(found);
+            let more = if index == wanted {
+                list.next_element_seed(Descent { path: rest, end: self.end })?.is_some()
+            } else {
+                list.next_element::<IgnoredAny>()?.is_some()
+            };
+            if !more {
+                return Ok(());
             }
             index += 1;
         }

@@ -1,5 +1,8 @@
 //! "Did you mean": the known name nearest to a mistyped one.
 
+/// What is longer is no name, and would take long to compare.
+const LONGEST: usize = 64;
+
 /// The member of `known` with the fewest edits to `name`, if those are few enough to be a slip.
 ///
 /// ```
@@ -8,36 +11,57 @@
 /// ```
 #[must_use]
 pub fn nearest<'a>(name: &str, known: impl IntoIterator<Item = &'a str>) -> Option<&'a str> {
-    let slip = (name.chars().count() / 3).max(2);
-    known
-        .into_iter()
-        .map(|candidate| (distance(name, candidate), candidate))
-        .filter(|&(edits, candidate)| edits <= slip && edits < candidate.chars().count())
-        .min()
-        .map(|(_, candidate)| candidate)
+    let name = letters(name);
+    if name.len() > LONGEST {
+        return None;
+    }
+    let slip = (name.len() / 3).max(2);
+    let mut rows = Rows::default();
+    let edits = |candidate: &'a str| {
+        let known = letters(candidate);
+        let near = known.len().abs_diff(name.len()) <= slip;
+        let edits = near.then(|| rows.distance(&name, &known))?;
+        (edits <= slip && edits < known.len()).then_some((edits, candidate))
+    };
+    known.into_iter().filter_map(edits).min().map(|(_, candidate)| candidate)
 }
 
-/// Edits between two names: letters added, dropped, changed or swapped with their neighbour (the
-/// restricted Damerau-Levenshtein distance); letter case and `-` or space for `_` are no edits.
-fn distance(a: &str, b: &str) -> usize {
-    let letters = |s: &str| -> Vec<char> {
-        s.chars().map(|c| if matches!(c, '-' | ' ') { '_' } else { c.to_ascii_lowercase() }).collect()
-    };
-    let (a, b) = (letters(a), letters(b));
-    let mut rows: Vec<Vec<usize>> = vec![(0..=b.len()).collect()];
-    for i in 1..=a.len() {
-        let mut row = vec![i];
-        for j in 1..=b.len() {
-            let changed = usize::from(a[i - 1] != b[j - 1]);
-            let mut edits = (rows[i - 1][j] + 1).min(row[j - 1] + 1).min(rows[i - 1][j - 1] + changed);
-            if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
-                edits = edits.min(rows[i - 2][j - 2] + 1);
+/// What is compared of a name: letter case and `-` or space for `_` are no edits.
+fn letters(name: &str) -> Vec<char> {
+    name.chars().map(|c| if matches!(c, '-' | ' ') { '_' } else { c.to_ascii_lowercase() }).collect()
+}
+
+/// The last rows of a table of edits, kept from one comparison to the next.
+#[derive(Default)]
+struct Rows {
+    before: Vec<usize>,
+    last: Vec<usize>,
+    row: Vec<usize>,
+}
+
+impl Rows {
+    /// Edits between two names: letters added, dropped, changed or swapped with their neighbour (the restricted
+    /// Damerau-Levenshtein distance).
+    fn distance(&mut self, a: &[char], b: &[char]) -> usize {
+        let Rows { before, last, row } = self;
+        row.clear();
+        row.extend(0..=b.len());
+        for i in 1..=a.len() {
+            std::mem::swap(before, last);
+            std::mem::swap(last, row);
+            row.clear();
+            row.push(i);
+            for j in 1..=b.len() {
+                let changed = usize::from(a[i - 1] != b[j - 1]);
+                let mut edits = (last[j] + 1).min(row[j - 1] + 1).min(last[j - 1] + changed);
+                if i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1] {
+                    edits = edits.min(before[j - 2] + 1);
+                }
+                row.push(edits);
             }
-            row.push(edits);
         }
-        rows.push(row);
+        row[b.len()]
     }
-    rows[a.len()][b.len()]
 }
 
 #[cfg(test)]
@@ -57,6 +81,7 @@ mod tests {
             ("melanine", Some("melanin")),
             ("xyz", None),
             ("", None),
+            (&"width".repeat(100_000), None),
         ] {
             assert_eq!(nearest(name, known), expect, "{name}");
         }

@@ -42,10 +42,11 @@ pub(crate) fn in_words(error: &serde_yaml::Error) -> String {
 /// Brackets deeper than this are an attack: the library takes quadratic time for them.
 const DEEPEST: usize = 128;
 
+/// Counts brackets; those of remarks, which often leave one open, `[0, 1)`, do not count.
 pub(crate) fn check_nesting(text: &str) -> Result<(), YamlFault> {
     let mut depth = 0_usize;
     for (index, line) in text.lines().enumerate() {
-        for (column, c) in line.chars().enumerate() {
+        for (column, c) in before_remark(line).chars().enumerate() {
             match c {
                 '[' | '{' => depth += 1,
                 ']' | '}' => depth = depth.saturating_sub(1),
@@ -58,4 +59,16 @@ pub(crate) fn check_nesting(text: &str) -> Result<(), YamlFault> {
         }
     }
     Ok(())
+}
+
+/// A line as far as its remark, where it is certain that it has one: where there is a quote in it, `#` may stand in
+/// a text that ends further on.
+fn before_remark(line: &str) -> &str {
+    if line.contains(['"', '\'']) {
+        return line;
+    }
+    let begins = |(at, _): &(usize, &str)| {
+        line.get(..*at).is_some_and(|before| !before.ends_with(|c: char| !c.is_whitespace()))
+    };
+    line.match_indices('#').find(begins).and_then(|(at, _)| line.get(..at)).unwrap_or(line)
 }

@@ -1,9 +1,11 @@
 //! The texts a document was put together from.
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use crate::fault::{Fault, Place};
-use crate::locate::{locate, locate_key, scalar};
+use crate::locate::{locate, locate_key};
 use crate::tree::Origin;
 
 /// A text: a file's, or the value of a setting.
@@ -25,9 +27,17 @@ impl Source {
     }
 }
 
+/// Every place that is told takes another reading of its text. After as many bytes places are no longer looked up:
+/// a text with that much wrong is an attack, and would take long.
+const MOST_READ: usize = 1 << 22;
+
 /// All texts of a document.
 #[derive(Clone, Debug, Default)]
-pub(crate) struct Sources(pub(crate) Vec<Source>);
+pub(crate) struct Sources {
+    pub(crate) texts: Vec<Source>,
+    /// Bytes that were read to look places up, by this document and those it was made into.
+    read: Arc<AtomicUsize>,
+}
 
 /// Whether the place of a fault is that of a value or of the key before it.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -38,14 +48,17 @@ pub(crate) enum Part {
 
 impl Sources {
     pub(crate) fn add(&mut self, source: Source) -> usize {
-        self.0.push(source);
-        self.0.len() - 1
+        self.texts.push(source);
+        self.texts.len() - 1
     }
 
     /// Line and column, where the value was written in a file.
     fn place(&self, origin: &Origin, part: Part) -> Option<Place> {
-        let source = self.0.get(origin.source)?;
+        let source = self.texts.get(origin.source)?;
         if source.setting.is_some() || origin.trail.is_none() {
+            return None;
+        }
+        if self.read.fetch_add(source.text.len(), Ordering::Relaxed) > MOST_READ {
             return None;
         }
         let path = origin.path();
@@ -56,7 +69,7 @@ impl Sources {
     }
 
     fn file(&self, origin: &Origin) -> &Path {
-        self.0.get(origin.source).map_or(Path::new(""), |source| &source.file)
+        self.texts.get(origin.source).map_or(Path::new(""), |source| &source.file)
     }
 
     /// A fault of what was written at `origin`, which stands at `key` in the document.
@@ -70,7 +83,7 @@ impl Sources {
         if let Some((name, from)) = from {
             message += &format!(" (by `${{{name}}}`, {})", self.whence(from));
         }
-        if let Some(setting) = self.0.get(told.source).and_then(|source| source.setting.as_deref()) {
+        if let Some(setting) = self.texts.get(told.source).and_then(|source| source.setting.as_deref()) {
             message += &format!(" (from `{setting}`)");
         }
         let place = self.place(told, part).map(|place| (place.line, place.column));
@@ -79,7 +92,7 @@ impl Sources {
 
     /// Where something comes from, in words.
     fn whence(&self, origin: &Origin) -> String {
-        if let Some(setting) = self.0.get(origin.source).and_then(|source| source.setting.as_deref()) {
+        if let Some(setting) = self.texts.get(origin.source).and_then(|source| source.setting.as_deref()) {
             return format!("from `{setting}`");
         }
         let file = self.file(origin).display();
@@ -87,11 +100,5 @@ impl Sources {
             Some(Place { line, column }) => format!("{file}:{line}:{column}"),
             None => file.to_string(),
         }
-    }
-
-    /// A scalar as it was written: `0.10` stays that.
-    pub(crate) fn written(&self, origin: &Origin) -> Option<String> {
-        let source = self.0.get(origin.source)?;
-        scalar(&source.text, &origin.path())
     }
 }

@@ -39,6 +39,8 @@ pub(crate) struct Origin {
     pub(crate) trail: Option<Arc<Trail>>,
     /// Where a variable was used that brought the value there: its name and the place of the use.
     pub(crate) used: Option<Arc<(String, Origin)>>,
+    /// A number's or a yes-or-no's letters, as they were written.
+    pub(crate) letters: Option<Arc<str>>,
 }
 
 /// The last step of a way down and the way before it.
@@ -51,12 +53,12 @@ pub(crate) struct Trail {
 
 impl Origin {
     pub(crate) fn of(source: usize) -> Origin {
-        Origin { source, trail: None, used: None }
+        Origin { source, trail: None, used: None, letters: None }
     }
 
     pub(crate) fn below(&self, step: String) -> Origin {
         let trail = Some(Arc::new(Trail { before: self.trail.clone(), step }));
-        Origin { source: self.source, trail, used: None }
+        Origin { source: self.source, trail, used: None, letters: None }
     }
 
     /// The steps from the top of the text.
@@ -130,6 +132,22 @@ impl Node {
     #[must_use]
     pub fn is_null(&self) -> bool {
         matches!(self.value, Value::Null)
+    }
+
+    /// A single value letter by letter as it was written: `0.10` stays that. `None` for lists and mappings.
+    #[must_use]
+    pub fn written(&self) -> Option<&str> {
+        match &self.value {
+            Value::Text(text) => Some(text),
+            Value::List(_) | Value::Map(_) => None,
+            Value::Null => Some(""),
+            _ => self.origin.letters.as_deref(),
+        }
+    }
+
+    /// Whether it is a single value other than text, which has letters of its own.
+    pub(crate) fn is_number_or_bool(&self) -> bool {
+        matches!(self.value, Value::Bool(_) | Value::Negative(_) | Value::Whole(_) | Value::Number(_))
     }
 
     pub(crate) fn map(&self) -> Option<&Map> {

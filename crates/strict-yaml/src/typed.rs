@@ -1,92 +1,23 @@
-//! A tree of values as a plain struct; every fault in it, not only the first.
+//! A tree of values as serde takes it.
 
 use serde::de::value::StrDeserializer;
-use serde::de::{
-    DeserializeOwned, DeserializeSeed, Deserializer, EnumAccess, IntoDeserializer, MapAccess, SeqAccess,
-    VariantAccess, Visitor,
-};
+use serde::de::{DeserializeSeed, Deserializer, IntoDeserializer, MapAccess, SeqAccess, Visitor};
 
-use crate::fault::Fault;
-use crate::source::{Part, Sources};
 use crate::tree::{Map, Node, Value};
-use crate::words;
-
-/// More faults than this are not told at once.
-const MOST_FAULTS: usize = 100;
-
-/// A struct read from a tree as far as that was possible.
-#[derive(Clone, Debug)]
-pub struct Reading<T> {
-    /// What was read; keys with a fault are as if they were not there. `None` where not even that can be
-    /// had: the struct has no defaults for them.
-    pub value: Option<T>,
-    /// The faults, in the order they were met.
-    pub faults: Vec<Fault>,
-    /// The keys that were left out of `value` for their faults, as `render.spp`.
-    pub left_out: Vec<String>,
-}
-
-/// Reads a `T`. What cannot be read is told and left out, and the rest read again, until it can be.
-pub(crate) fn read<T: DeserializeOwned>(sources: &Sources, root: &Node) -> Reading<T> {
-    let mut tree = root.clone();
-    let (mut faults, mut left_out) = (Vec::new(), Vec::new());
-    loop {
-        let mut error = match T::deserialize(Typed { node: &tree, sources }) {
-            Ok(value) => return Reading { value: Some(value), faults, left_out },
-            Err(error) => error,
-        };
-        error.path.reverse();
-        let steps: Vec<&str> = error.path.iter().map(String::as_str).collect();
-        // That a key is missing which was left out is no fault of its own.
-        let missed = error.message.strip_prefix("missing field `").and_then(|rest| rest.strip_suffix('`'));
-        let follows = missed.is_some_and(|name| {
-            let key: Vec<&str> = steps.iter().copied().chain([name]).collect();
-            left_out.contains(&key.join("."))
-        });
-        if !follows {
-            faults.push(told(sources, &tree, &steps, &error));
-        }
-        let out = remove(&mut tree, &steps);
-        let stuck = out.is_none() || faults.len() >= MOST_FAULTS;
-        left_out.extend(out);
-        if stuck {
-            return Reading { value: None, faults, left_out };
-        }
-    }
-}
-
-fn told(sources: &Sources, tree: &Node, steps: &[&str], error: &Error) -> Fault {
-    let key = if error.at_key { &steps[..steps.len().saturating_sub(1)] } else { steps };
-    let part = if error.at_key { Part::Key } else { Part::Value };
-    let node = steps.iter().try_fold(tree, |node, step| node.child(step)).unwrap_or(tree);
-    sources.fault(&node.origin, part, &key.join("."), words::plain(&error.message))
-}
-
-/// Takes out of the tree the innermost key of a mapping on the way; which one that was.
-fn remove(tree: &mut Node, steps: &[&str]) -> Option<String> {
-    let inner = (0..steps.len()).rev().find(|&i| {
-        let above = steps.get(..i).unwrap_or_default();
-        above.iter().try_fold(&*tree, |node, step| node.child(step)).is_some_and(Node::is_map)
-    })?;
-    let (above, rest) = steps.split_at(inner);
-    let node = above.iter().try_fold(tree, |node, step| node.child_mut(step))?;
-    let Value::Map(map) = &mut node.value else { return None };
-    map.shift_remove(*rest.first()?)?;
-    Some(steps.get(..=inner)?.join("."))
-}
+use crate::variant::Variant;
 
 /// What serde says, and where.
 #[derive(Debug)]
 pub(crate) struct Error {
-    message: String,
+    pub(crate) message: String,
     /// The steps, the innermost first.
-    path: Vec<String>,
+    pub(crate) path: Vec<String>,
     /// The last key is at fault, not what it holds.
-    at_key: bool,
+    pub(crate) at_key: bool,
 }
 
 impl Error {
-    fn below(mut self, step: &str) -> Self {
+    pub(crate) fn below(mut self, step: &str) -> Self {
         self.path.push(step.to_owned());
         self
     }
@@ -108,24 +39,12 @@ impl std::error::Error for Error {}
 
 /// Hands a node to serde.
 #[derive(Clone, Copy)]
-struct Typed<'t> {
-    node: &'t Node,
-    sources: &'t Sources,
-}
+pub(crate) struct Typed<'t>(pub(crate) &'t Node);
 
 impl<'t> Typed<'t> {
-    fn of(self, node: &'t Node) -> Self {
-        Typed { node, sources: self.sources }
-    }
-
-    /// The scalar's letters: a name may look like a number.
-    fn letters(self) -> Option<String> {
-        match &self.node.value {
-            Value::Bool(_) | Value::Negative(_) | Value::Whole(_) | Value::Number(_) => {
-                self.sources.written(&self.node.origin)
-            }
-            _ => None,
-        }
+    /// The letters of a number or yes-or-no: a name may look like one.
+    fn letters(self) -> Option<&'t str> {
+        self.0.written().filter(|_| self.0.is_number_or_bool())
     }
 }
 
@@ -141,7 +60,7 @@ impl<'de> Deserializer<'de> for Typed<'_> {
     type Error = Error;
 
     fn deserialize_any<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        match &self.node.value {
+        match &self.0.value {
             Value::Null => visitor.visit_unit(),
             Value::Bool(value) => visitor.visit_bool(*value),
             Value::Negative(value) => visitor.visit_i64(*value),
@@ -149,7 +68,7 @@ impl<'de> Deserializer<'de> for Typed<'_> {
             Value::Number(value) => visitor.visit_f64(*value),
             Value::Text(text) => visitor.visit_str(text),
             Value::List(list) => {
-                let mut entries = Entries { of: self, list, next: 0 };
+                let mut entries = Entries { list, next: 0 };
                 let value = visitor.visit_seq(&mut entries)?;
                 if entries.next < list.len() {
                     let (count, read) = (list.len(), entries.next);
@@ -158,13 +77,13 @@ impl<'de> Deserializer<'de> for Typed<'_> {
                 }
                 Ok(value)
             }
-            Value::Map(map) => visitor.visit_map(Keys { of: self, map, next: 0 }),
+            Value::Map(map) => visitor.visit_map(Keys { map, next: 0 }),
         }
     }
 
     fn deserialize_str<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
         match self.letters() {
-            Some(letters) => visitor.visit_string(letters),
+            Some(letters) => visitor.visit_str(letters),
             None => self.deserialize_any(visitor),
         }
     }
@@ -174,19 +93,19 @@ impl<'de> Deserializer<'de> for Typed<'_> {
     }
 
     fn deserialize_option<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        if self.node.is_null() { visitor.visit_none() } else { visitor.visit_some(self) }
+        if self.0.is_null() { visitor.visit_none() } else { visitor.visit_some(self) }
     }
 
     fn deserialize_seq<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        match &self.node.value {
-            Value::Null => visitor.visit_seq(Entries { of: self, list: &[], next: 0 }),
+        match &self.0.value {
+            Value::Null => visitor.visit_seq(Entries { list: &[], next: 0 }),
             _ => self.deserialize_any(visitor),
         }
     }
 
     fn deserialize_map<V: Visitor<'de>>(self, visitor: V) -> Result<V::Value, Error> {
-        match &self.node.value {
-            Value::Null => visitor.visit_map(Keys { of: self, map: &Map::new(), next: 0 }),
+        match &self.0.value {
+            Value::Null => visitor.visit_map(Keys { map: &Map::new(), next: 0 }),
             _ => self.deserialize_any(visitor),
         }
     }
@@ -214,16 +133,16 @@ impl<'de> Deserializer<'de> for Typed<'_> {
         _: &'static [&'static str],
         visitor: V,
     ) -> Result<V::Value, Error> {
-        match &self.node.value {
+        match &self.0.value {
             Value::Map(map) => match map.first() {
                 Some((name, node)) if map.len() == 1 => {
-                    visitor.visit_enum(Variant { name, content: Some(self.of(node)) })
+                    visitor.visit_enum(Variant { name, content: Some(Typed(node)) })
                 }
                 _ => Err(serde::de::Error::custom("is keys and values, expected one word")),
             },
             Value::Text(text) => visitor.visit_enum(Variant { name: text, content: None }),
             _ => match self.letters() {
-                Some(letters) => visitor.visit_enum(Variant { name: &letters, content: None }),
+                Some(letters) => visitor.visit_enum(Variant { name: letters, content: None }),
                 None => self.deserialize_any(visitor),
             },
         }
@@ -276,7 +195,6 @@ impl<'de> Deserializer<'de> for Typed<'_> {
 
 /// The entries of a list.
 struct Entries<'t> {
-    of: Typed<'t>,
     list: &'t [Node],
     next: usize,
 }
@@ -288,7 +206,7 @@ impl<'de> SeqAccess<'de> for Entries<'_> {
         let Some(node) = self.list.get(self.next) else { return Ok(None) };
         let index = self.next;
         self.next += 1;
-        seed.deserialize(self.of.of(node)).map(Some).map_err(|error| error.below(&index.to_string()))
+        seed.deserialize(Typed(node)).map(Some).map_err(|error| error.below(&index.to_string()))
     }
 
     fn size_hint(&self) -> Option<usize> {
@@ -298,7 +216,6 @@ impl<'de> SeqAccess<'de> for Entries<'_> {
 
 /// The keys of a mapping with what they hold.
 struct Keys<'t> {
-    of: Typed<'t>,
     map: &'t Map,
     next: usize,
 }
@@ -316,68 +233,6 @@ impl<'de> MapAccess<'de> for Keys<'_> {
         let entry = self.map.get_index(self.next);
         let (key, node) = entry.ok_or_else(|| serde::de::Error::custom("a key without a value"))?;
         self.next += 1;
-        seed.deserialize(self.of.of(node)).map_err(|error| error.below(key))
-    }
-}
-
-/// A word out of several, or a word with what belongs to it.
-struct Variant<'t> {
-    name: &'t str,
-    content: Option<Typed<'t>>,
-}
-
-impl<'de, 't> EnumAccess<'de> for Variant<'t> {
-    type Error = Error;
-    type Variant = Content<'t>;
-
-    fn variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<(S::Value, Content<'t>), Error> {
-        let name: StrDeserializer<Error> = self.name.into_deserializer();
-        let at_key = |error: Error| match self.content {
-            Some(_) => Error { at_key: true, ..error.below(self.name) },
-            None => error,
-        };
-        let content = self.content.map(|typed| (self.name.to_owned(), typed));
-        Ok((seed.deserialize(name).map_err(at_key)?, Content(content)))
-    }
-}
-
-/// What belongs to a word.
-struct Content<'t>(Option<(String, Typed<'t>)>);
-
-impl<'t> Content<'t> {
-    fn with<T>(self, read: impl FnOnce(Typed<'t>) -> Result<T, Error>) -> Result<T, Error> {
-        let needs = || serde::de::Error::custom("is one word, expected it with keys and values of its own");
-        let (name, typed) = self.0.ok_or_else(needs)?;
-        read(typed).map_err(|error| error.below(&name))
-    }
-}
-
-impl<'de> VariantAccess<'de> for Content<'_> {
-    type Error = Error;
-
-    fn unit_variant(self) -> Result<(), Error> {
-        match self.0 {
-            Some((name, typed)) if !typed.node.is_null() => {
-                let error: Error = serde::de::Error::custom("stands alone, expected nothing below it");
-                Err(error.below(&name))
-            }
-            _ => Ok(()),
-        }
-    }
-
-    fn newtype_variant_seed<S: DeserializeSeed<'de>>(self, seed: S) -> Result<S::Value, Error> {
-        self.with(|typed| seed.deserialize(typed))
-    }
-
-    fn tuple_variant<V: Visitor<'de>>(self, _: usize, visitor: V) -> Result<V::Value, Error> {
-        self.with(|typed| typed.deserialize_any(visitor))
-    }
-
-    fn struct_variant<V: Visitor<'de>>(
-        self,
-        _: &'static [&'static str],
-        visitor: V,
-    ) -> Result<V::Value, Error> {
-        self.with(|typed| typed.deserialize_map(visitor))
+        seed.deserialize(Typed(node)).map_err(|error| error.below(key))
     }
 }

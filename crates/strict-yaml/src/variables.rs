@@ -3,8 +3,9 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::build::MOST_VALUES;
-use crate::fault::Fault;
+use crate::fault::{Fault, MOST_FAULTS};
 use crate::nearest::nearest;
+use crate::pieces::{Piece, is_name, pieces};
 use crate::source::{Part, Sources};
 use crate::tree::{Map, Node, Origin, Value};
 
@@ -14,43 +15,6 @@ const MOST_LETTERS: usize = 1 << 20;
 const DEEPEST: usize = 32;
 /// Values below each other: as many as the YAML library itself takes.
 const DEEPEST_VALUE: usize = 128;
-
-/// A part of a text.
-#[derive(Debug, PartialEq)]
-enum Piece<'t> {
-    Plain(&'t str),
-    Variable(&'t str),
-}
-
-/// The pieces of a text: `${name}` is a variable, `$${` a plain `${`.
-fn pieces(text: &str) -> Result<Vec<Piece<'_>>, String> {
-    let mut pieces = Vec::new();
-    let mut rest = text;
-    while let Some(at) = rest.find("${") {
-        let (before, from) = rest.split_at(at);
-        let after = from.strip_prefix("${").unwrap_or_default();
-        if let Some(before) = before.strip_suffix('$') {
-            pieces.extend([Piece::Plain(before), Piece::Plain("${")]);
-            rest = after;
-            continue;
-        }
-        let (name, after) =
-            after.split_once('}').ok_or("a `${` without its `}`; a plain one is written `$${`")?;
-        if !is_name(name) {
-            return Err(format!("`${{{name}}}` holds no name: letters, digits, `_` and `-`"));
-        }
-        pieces.extend([Piece::Plain(before), Piece::Variable(name)]);
-        rest = after;
-    }
-    pieces.push(Piece::Plain(rest));
-    pieces.retain(|piece| *piece != Piece::Plain(""));
-    Ok(pieces)
-}
-
-fn is_name(name: &str) -> bool {
-    let letters = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
-    name.chars().all(letters) && name.starts_with(|c: char| c.is_ascii_alphabetic() || c == '_')
-}
 
 /// The variables of a document while they are put in.
 pub(crate) struct Variables<'v> {
@@ -92,6 +56,9 @@ impl<'v> Variables<'v> {
 
     /// Puts values in place of names, in everything below `node`, which stands at `key`.
     pub(crate) fn put_in(&mut self, node: &mut Node, key: &str) {
+        if self.faults.len() >= MOST_FAULTS {
+            return;
+        }
         let below = |step: &str| if key.is_empty() { step.to_owned() } else { format!("{key}.{step}") };
         match &mut node.value {
             Value::List(list) => {
@@ -146,14 +113,8 @@ impl<'v> Variables<'v> {
     /// What stands inside a text.
     fn letters(&mut self, name: &str) -> Result<String, String> {
         let node = self.value(name)?;
-        match &node.value {
-            Value::Text(text) => Ok(text.clone()),
-            Value::Null => Ok(String::new()),
-            Value::List(_) | Value::Map(_) => {
-                Err(format!("`${{{name}}}` is {} and cannot stand inside a text", node.words()))
-            }
-            _ => Ok(self.sources.written(&node.origin).unwrap_or_default()),
-        }
+        let cannot = || format!("`${{{name}}}` is {} and cannot stand inside a text", node.words());
+        node.written().map(str::to_owned).ok_or_else(cannot)
     }
 
     /// The value of a variable, a copy that is counted.
@@ -234,29 +195,4 @@ fn size(node: &Node) -> Size {
 /// How many values a tree holds.
 pub(crate) fn count(node: &Node) -> usize {
     size(node).values
-}
-
-#[cfg(test)]
-#[allow(clippy::unwrap_used)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn dollars_and_names_are_told_apart() {
-        use Piece::{Plain, Variable};
-        for (text, expect) in [
-            ("", vec![]),
-            ("plain $5 }", vec![Plain("plain $5 }")]),
-            ("${a}", vec![Variable("a")]),
-            ("x${a-1}${_b}.exr", vec![Plain("x"), Variable("a-1"), Variable("_b"), Plain(".exr")]),
-            ("$${a}", vec![Plain("${"), Plain("a}")]),
-            ("$$${a}", vec![Plain("$"), Plain("${"), Plain("a}")]),
-            ("$${${a}", vec![Plain("${"), Variable("a")]),
-        ] {
-            assert_eq!(pieces(text).unwrap(), expect, "{text}");
-        }
-        for text in ["${", "${a", "${}", "${a b}", "${1}", "x ${a.b}"] {
-            assert!(pieces(text).is_err(), "{text}");
-        }
-    }
 }

@@ -33,6 +33,10 @@ fn settings_lie_over_variables_and_values() {
         (Setting::variable("n"), "a.yaml: expected `name=value` (from `-D n`)"),
         (Setting::set("=1"), "a.yaml: a key is empty (from `--set =1`)"),
         (
+            Setting::set("color=#fff"),
+            "a.yaml: color: `#fff` is a remark to YAML; put it in quotes (from `--set color=#fff`)",
+        ),
+        (
             Setting::set("list.3.x=1"),
             "a.yaml: list.3.x: `3` is none of the 1 entries (0, 1, ...) (from `--set list.3.x=1`)",
         ),
