@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A Slurm cluster of two nodes on this machine renders an exported turntable; one node is killed in the midst.
+"""A Slurm cluster of two nodes on this machine renders an exported turntable; a task is stopped, a node is killed.
 
     python3 tests/farm/slurm.py [--turntable target/release/turntable] [--keep]
 
@@ -10,9 +10,10 @@ machine is configured, no service is started, and a cluster that is there alread
 all daemons run as whoever starts this, and Slurm then runs jobs of that user only.
 
 What happens: the turntable is rendered undisturbed; it is exported (`turntable farm export --slurm`) and submitted
-with `sh`; when a task on the second node has written a frame, the node's daemon and everything it started are killed
-with SIGKILL; the node stays dead. What must come of it: Slurm queues the task again, every frame is there with the
-pixels and the digest of the undisturbed run, and so are the contact sheet (`afterok`) and the report (`afterany`).
+with `sh`; when frames are being written, the task on the first node is told to stop, as Slurm tells it when its time
+is nearly up, and exits with 75; then the second node's daemon and everything it started are killed with SIGKILL; the
+node stays dead. What must come of it: Slurm queues both tasks again, every frame is there with the pixels and the
+digest of the undisturbed run, and so are the contact sheet and the report.
 
 Exit code 0: so it came. 1: not so. 2: could not be tried (Slurm is missing, a daemon did not start).
 """
@@ -251,22 +252,52 @@ def trial(arguments: argparse.Namespace, folder: Path) -> bool:
             capture_output=True, text=True,
         ).stdout
         say(said.strip().replace("\n", "; "))
-        killed = kill_in_mid_job(cluster, turntable.name, out)
+        cluster.wait("the first frame", lambda: any(out.rglob("frame.*.exr")), 120)
+        stopped = stop_in_mid_frame(cluster, turntable.name)
+        say(f"job {stopped} stopped after {time.monotonic() - start:.1f} s, and queued again")
+        killed = kill_in_mid_job(cluster, turntable.name)
         say(f"n2 killed after {time.monotonic() - start:.1f} s: {killed} processes")
         states = wait_for_the_end(cluster, arguments.patience)
         seconds = time.monotonic() - start
     finally:
         cluster.stop()
-    return verdict(states, undisturbed, out, seconds, folder)
+    return verdict(states, stopped, undisturbed, out, seconds, folder)
 
 
-def kill_in_mid_job(cluster: Cluster, program: str, out: Path) -> int:
-    """Waits until frames are being written and the second node renders, then kills it."""
-    def renders() -> bool:
-        # The kernel keeps 15 letters of a name.
-        is_rendering = any(comm(pid) == program[:15] for pid in cluster.processes_of("n2"))
-        return is_rendering and any(out.rglob("frame.*.exr"))
-    cluster.wait("the second node to render", renders, 120)
+def renderers(cluster: Cluster, node: str, program: str) -> set[int]:
+    """The processes that render on a node."""
+    # The kernel keeps 15 letters of a name.
+    return {pid for pid in cluster.processes_of(node) if comm(pid) == program[:15]}
+
+
+def stop_in_mid_frame(cluster: Cluster, program: str) -> str:
+    """Sends a task on the first node what `--signal=B:TERM` sends it; the job's number, when it is queued again."""
+    since: dict[int, float] = {}
+
+    def has_begun() -> bool:
+        now = time.monotonic()
+        for pid in renderers(cluster, "n1", program):
+            since.setdefault(pid, now)
+        # It has to be past its start, where a signal still ends it as any program.
+        return any(comm(pid) and now - begun > 1.0 for pid, begun in since.items())
+    cluster.wait("the first node to render", has_begun, 120)
+    job = cluster.ask("squeue", "-h", "-r", "-w", "n1", "-t", "R", "-o", "%A").split("\n")[0]
+    # It asks the controller too, again and again, until the job is running once more.
+    asking = subprocess.Popen(["scancel", "--batch", "--signal=TERM", job], env=cluster.environment, stderr=subprocess.DEVNULL)
+
+    def is_queued_again() -> bool:
+        return any(record.get("JobId") == job and record.get("Restarts") == "1" for record in job_records(cluster))
+    try:
+        cluster.wait(f"job {job} to be queued again", is_queued_again, 60)
+    finally:
+        asking.kill()
+        asking.wait()
+    return job
+
+
+def kill_in_mid_job(cluster: Cluster, program: str) -> int:
+    """Waits until the second node renders, then kills it; how many processes there were."""
+    cluster.wait("the second node to render", lambda: bool(renderers(cluster, "n2", program)), 120)
     return cluster.kill_node("n2")
 
 
@@ -286,12 +317,14 @@ def wait_for_the_end(cluster: Cluster, patience: float) -> list[dict[str, str]]:
     return job_records(cluster)
 
 
-def verdict(jobs: list[dict[str, str]], undisturbed: Path, out: Path, seconds: float, folder: Path) -> bool:
+def verdict(
+    jobs: list[dict[str, str]], stopped: str, undisturbed: Path, out: Path, seconds: float, folder: Path
+) -> bool:
     requeues = sum(int(job.get("Restarts", 0)) for job in jobs)
     bad = [f"{job.get('JobName')} {job.get('JobId')}: {job.get('JobState')}" for job in jobs
            if job.get("JobState") != "COMPLETED"]
     lost = exr_bits.differing(undisturbed, out)
-    if requeues == 0:
+    if all(job.get("JobId") == stopped or job.get("Restarts") == "0" for job in jobs):
         bad.append("no task was queued again: the node died too late, try again with more --spp")
     for name in ["sheet.png", "report.json", "report.html", "groom.txt"]:
         if not (out / name).is_file():

@@ -18,9 +18,10 @@ pub fn command_list(job: &FarmJob) -> Result<String, FarmError> {
     let tasks = job.tasks();
     let mut lines = vec![
         format!("# {}: {} tasks, a line each. For example:", job.name, tasks.len()),
-        "#     parallel --joblog jobs.log --retries 3 < THIS_FILE".to_owned(),
-        "#     hq submit --each-line THIS_FILE sh -c 'eval \"$HQ_ENTRY\"'".to_owned(),
-        "#     xargs -d '\\n' -n 1 -P 4 sh -c < THIS_FILE".to_owned(),
+        "#     parallel --jobs 1 --joblog jobs.log --retries 3 < THIS_FILE".to_owned(),
+        "#     hq submit --cpus=all --each-line THIS_FILE sh -c 'eval \"$HQ_ENTRY\"'".to_owned(),
+        "#     xargs -d '\\n' -n 1 sh -c < THIS_FILE".to_owned(),
+        "# One task at a time on each machine: it takes all cores that it may use.".to_owned(),
         "# Every line may be run again, twice at once, or be killed: frames that are done are skipped, one that was"
             .to_owned(),
         "# begun goes on where its checkpoint stands. Exit code 75 asks for another try.".to_owned(),
@@ -51,7 +52,7 @@ pub fn command_list(job: &FarmJob) -> Result<String, FarmError> {
     Ok(lines.join("\n") + "\n")
 }
 
-/// A step after the frames looks after the frames of this job and no others: it renders what is missing.
+/// A step after the frames looks after the frames of this job and no others.
 pub(crate) fn after_words(job: &FarmJob, words: &[String]) -> Vec<String> {
     let mut all = words.to_vec();
     all.extend(["--frames".to_owned(), range_text(&job.frames)]);

@@ -30,6 +30,9 @@ pub struct FarmJob {
     pub prepare: Option<Vec<String>>,
     /// Words of every task of frames.
     pub render: Vec<String>,
+    /// Words by which the program ends well only when all frames are there, where it has such: it knows better than
+    /// the scheduler.
+    pub done: Option<Vec<String>>,
     /// What runs when the frames are there, each once.
     pub after: Vec<AfterStep>,
     /// Frames a task. A task loads the groom and builds its trees once; [`frames_a_task`] picks one.
@@ -110,6 +113,7 @@ impl FarmJob {
             input_folders: Vec::new(),
             prepare: None,
             render: Vec::new(),
+            done: None,
             after: Vec::new(),
             chunk: frames_a_task(None),
             seconds_a_frame: None,
@@ -236,7 +240,8 @@ impl FarmJob {
     /// Every text of the job with what it is; paths are Unicode by now.
     fn texts(&self) -> impl Iterator<Item = (&'static str, &str)> {
         let words = self.command.iter().chain(&self.settings).chain(self.prepare.iter().flatten());
-        let words = words.chain(&self.render).chain(self.after.iter().flat_map(|step| &step.words));
+        let words = words.chain(&self.render).chain(self.done.iter().flatten());
+        let words = words.chain(self.after.iter().flat_map(|step| &step.words));
         let names = self.after.iter().map(|step| ("the step", step.name.as_str()));
         let axes = self.variants.iter().flat_map(|v| &v.axes);
         [("the job's name", self.name.as_str())]

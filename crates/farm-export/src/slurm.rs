@@ -68,7 +68,7 @@ fn head(job: &FarmJob, tasks: usize) -> String {
         "# its checkpoint stands. A task on a node that dies is queued again by Slurm (--requeue).".to_owned(),
         "# Taken for granted:".to_owned(),
         format!("# - every node finds `{}` and sees the same files under the same names;", job.command.join(" ")),
-        "# - `RequeueExit=75` stands in slurm.conf: a task that was stopped (its time was up, scancel --signal=TERM)"
+        "# - `RequeueExit=75` stands in slurm.conf: a task that was stopped (its time was up, scancel --batch --signal=TERM)"
             .to_owned(),
         "#   writes a checkpoint and exits with 75, which asks for another try. Without that line it counts as failed,"
             .to_owned(),
@@ -93,9 +93,11 @@ fn submission(job: &FarmJob, common: &[String]) -> Result<String, FarmError> {
             .to_owned(),
         "    after=".to_owned(),
     ];
-    let step = |name: &str, words: &[String]| {
-        let command =
-            format!("exec {} --threads \"${{SLURM_CPUS_ON_NODE:-1}}\"", sh_line(common.iter().chain(words)));
+    let step = |name: &str, first: &str, words: &[String]| {
+        let command = format!(
+            "{first}exec {} --threads \"${{SLURM_CPUS_ON_NODE:-1}}\"",
+            sh_line(common.iter().chain(words))
+        );
         let name = label(&format!("{}-{name}", job.name));
         format!(
             "--job-name={name} --requeue --open-mode=append --signal=B:TERM@{NOTICE} \"$@\" --wrap={}",
@@ -103,7 +105,7 @@ fn submission(job: &FarmJob, common: &[String]) -> Result<String, FarmError> {
         )
     };
     if let Some(words) = &job.prepare {
-        lines.push(format!("    prepare=$(sbatch --parsable {})", step("Prepare", words)));
+        lines.push(format!("    prepare=$(sbatch --parsable {})", step("Prepare", "", words)));
         lines.push("    prepare=$(id \"$prepare\")".to_owned());
         lines.push("    echo \"Prepare: job $prepare\"".to_owned());
         lines.push("    after=\"--dependency=afterok:$prepare --kill-on-invalid-dep=yes\"".to_owned());
@@ -115,12 +117,18 @@ fn submission(job: &FarmJob, common: &[String]) -> Result<String, FarmError> {
     lines.push("    ended=$frames".to_owned());
     for after in &job.after {
         // What is to run in any case comes last, or two would do the same work side by side.
-        let dependency = match after.when {
-            When::AllDone => "--dependency=\"afterok:$frames\" --kill-on-invalid-dep=yes",
-            When::Ended => "--dependency=\"afterany:$ended\"",
+        let (dependency, first) = match (after.when, &job.done) {
+            // `afterok` never comes true of an array with a task that exited with 75, though it was queued again and
+            // ended well.
+            (When::AllDone, Some(done)) => {
+                let done = after_words(job, done);
+                ("afterany:$frames\"", format!("{} && ", sh_line(common.iter().chain(&done))))
+            }
+            (When::AllDone, None) => ("afterok:$frames\" --kill-on-invalid-dep=yes", String::new()),
+            (When::Ended, _) => ("afterany:$ended\"", String::new()),
         };
-        let words = after_words(job, &after.words);
-        lines.push(format!("    step=$(sbatch --parsable {dependency} {})", step(&after.name, &words)));
+        let step = step(&after.name, &first, &after_words(job, &after.words));
+        lines.push(format!("    step=$(sbatch --parsable --dependency=\"{dependency} {step})"));
         lines.push("    step=$(id \"$step\")".to_owned());
         lines.push("    ended=$ended:$step".to_owned());
         lines.push(format!("    echo {}\": job $step\"", sh_quoted(&after.name)));

@@ -63,7 +63,8 @@ pub struct MaterialFile {
     /// Tilt of the cuticle's scales in degrees, above 0 for real hair.
     #[cfg_attr(feature = "schema", schemars(extend("exclusiveMinimum" = -90, "exclusiveMaximum" = 90)))]
     pub alpha: Option<f32>,
-    /// Index of refraction.
+    /// Index of refraction, 1.0001..3.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0001, max = 3.0)))]
     pub eta: Option<f32>,
     /// Factors on the lobes; 1 is physical.
     pub lobes: Option<LobesFile>,
@@ -71,9 +72,11 @@ pub struct MaterialFile {
     pub wet: Option<bool>,
     /// What the film is like; stating it makes the fibre wet.
     pub film: Option<FilmFile>,
-    /// Layers of cuticle scales as Yan et al. 2017 count them.
+    /// Layers of cuticle scales as Yan et al. 2017 count them, 0.01..100.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.01, max = 100.0)))]
     pub cuticle_layers: Option<f32>,
-    /// Smaller over larger axis of the cross-section; 1 is round.
+    /// Smaller over larger axis of the cross-section, 0.1..1; 1 is round.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 1.0)))]
     pub aspect: Option<f32>,
 
     /// The core of fur by its physical parameters.
@@ -156,6 +159,7 @@ pub struct GroomColor {
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub melanin: Option<f32>,
     /// What a groom without `redness` gets.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 1.0)))]
     pub redness: Option<f32>,
 }
 
@@ -187,9 +191,11 @@ pub enum VDirection {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct ScalesFile {
-    /// Of TT; 0.5 when absent.
+    /// Of TT, 0.1..8; 0.5 when absent.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 8.0)))]
     pub tt: Option<f32>,
-    /// Of TRT and the residual; 2 when absent.
+    /// Of TRT and the residual, 0.1..8; 2 when absent.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.1, max = 8.0)))]
     pub trt: Option<f32>,
 }
 
@@ -223,9 +229,11 @@ pub struct LobesFile {
 #[cfg_attr(feature = "schema", derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields, default)]
 pub struct FilmFile {
-    /// Index of refraction; 1.33 when absent.
+    /// Index of refraction, 1.0001..3; 1.33 when absent.
+    #[cfg_attr(feature = "schema", schemars(range(min = 1.0001, max = 3.0)))]
     pub eta: Option<f32>,
-    /// Roughness of its surface; 0.1 when absent.
+    /// Roughness of its surface, 0.001..1; 0.1 when absent.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.001, max = 1.0)))]
     pub roughness: Option<f32>,
 }
 
@@ -264,7 +272,8 @@ pub struct FurFile {
     /// How much it scatters, 0..5; 0.065 when absent.
     #[cfg_attr(feature = "schema", schemars(range(min = 0.0, max = 5.0)))]
     pub medulla_scattering: Option<f32>,
-    /// Layers of cuticle scales.
+    /// Layers of cuticle scales, 0.01..100.
+    #[cfg_attr(feature = "schema", schemars(range(min = 0.01, max = 100.0)))]
     pub cuticle_layers: Option<f32>,
 }
 

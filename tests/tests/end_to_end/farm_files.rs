@@ -133,7 +133,7 @@ fn a_slurm_script_submits_itself_and_its_tasks_make_the_frames() {
         "{calls:?}"
     );
     assert!(calls[1].contains("--dependency=afterok:1"), "{calls:?}");
-    assert!(calls[2].contains("--dependency=afterok:2"), "{calls:?}");
+    assert!(calls[2].contains("--dependency=afterany:2 ") && calls[2].contains(" --check "), "{calls:?}");
     assert!(calls[3].contains("--dependency=afterany:2:3"), "{calls:?}");
     exported.assert_made();
 }

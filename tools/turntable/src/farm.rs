@@ -123,6 +123,7 @@ fn job(plan: &Plan, args: &ExportArgs) -> anyhow::Result<FarmJob> {
         input_folders,
         prepare: has(|kind| *kind == StepKind::Convert).then(|| steps("prepare")),
         render: vec!["--steps".to_owned(), "frames".to_owned()],
+        done: Some([steps("frames"), vec!["--check".to_owned()]].concat()),
         after: vec![after(sheet, When::AllDone), after("Report", When::Ended)],
         chunk: args.chunk.unwrap_or_else(|| frames_a_task(seconds)),
         seconds_a_frame: seconds,
@@ -219,11 +220,9 @@ fn tell(job: &FarmJob, args: &ExportArgs) {
             .as_ref()
             .map(|file| format!("submit with: sh {}", farm_export::sh_quoted(&file.to_string_lossy()))),
     );
-    lines.extend(
-        commands
-            .as_ref()
-            .map(|file| format!("run with: parallel < {}", farm_export::sh_quoted(&file.to_string_lossy()))),
-    );
+    lines.extend(commands.as_ref().map(|file| {
+        format!("run with: parallel --jobs 1 < {}", farm_export::sh_quoted(&file.to_string_lossy()))
+    }));
     for line in lines {
         // `eprintln!` would panic when nobody reads stderr any more.
         let _ = writeln!(std::io::stderr(), "{line}");

@@ -102,6 +102,9 @@ fn the_script_has_what_slurm_needs() {
     assert!(last.ends_with("\"$@\" --frames \"$frames\""), "{last}");
     assert!(script.contains("afterok:$prepare") && script.contains("afterok:$frames"));
     assert!(script.contains("afterany:$ended"));
+    // Where the program can tell whether all is done, it is asked, not Slurm.
+    let told = slurm(&FarmJob { done: Some(vec!["--is it".into()]), ..full_job() }).unwrap();
+    assert!(!told.contains("afterok:$frames") && told.contains("afterany:$frames"), "{told}");
     let many = FarmJob::new("many", "/p.yaml", "/out", 1..=5000).with_chunk(2);
     assert!(slurm(&many).unwrap().contains("MaxArraySize"), "an unusual array is told");
 }

@@ -190,6 +190,17 @@ proptest! {
     }
 
     #[test]
+    fn what_is_asked_first_is_read_back(job in job(), done in prop::collection::vec(word(), 0..3)) {
+        let sbatch = "sbatch() { for w; do case $w in --wrap=*) (eval \"${w#--wrap=}\") >&3 ;; esac; done; echo 7; }\n";
+        let job = FarmJob { done: Some(done.clone()), ..job };
+        let script = format!("exec 3>&1 >&2; {sbatch}{}", slurm(&job).unwrap());
+        let frames = ["--frames".to_owned(), farm_export::range_text(&job.frames)];
+        let first = [base(&job), done, frames.to_vec()].concat();
+        let second = [base(&job), job.after[0].words.clone(), frames.to_vec(), vec!["--threads".into(), "1".into()]];
+        prop_assert_eq!(read_by_sh(&script, &[]), [first, second.concat()].concat());
+    }
+
+    #[test]
     fn format_strings_resolve_to_what_went_in(job in job()) {
         let [.., (_, flat), (_, template)] = openjd(&job).unwrap();
         let template: Value = serde_yaml::from_str(&template).unwrap();

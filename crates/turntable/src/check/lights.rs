@@ -43,7 +43,6 @@ impl Check<'_> {
         }
         self.color("lights.environment.constant", *constant, f32::MAX);
         self.need(rotation.is_finite(), "lights.environment.rotation", rotation, "an angle in degrees");
-        let good = *intensity >= 0.0 && intensity.is_finite();
-        self.need(good, "lights.environment.intensity", intensity, "a finite factor of at least 0");
+        self.factor("lights.environment.intensity", f64::from(*intensity));
     }
 }

@@ -77,7 +77,11 @@ impl Check<'_> {
         match std::fs::metadata(&full) {
             Ok(data) if data.is_file() => {}
             Ok(_) => self.fault(key, format!("`{}` is no file", full.display())),
-            Err(error) => self.fault(key, format!("no file at `{}` ({error})", full.display())),
+            Err(error) => {
+                let meant = neighbour(&full).map(|name| format!(", did you mean `{name}`?"));
+                let (shown, meant) = (full.display(), meant.unwrap_or_default());
+                self.fault(key, format!("no file at `{shown}` ({error}){meant}"));
+            }
         }
     }
 
@@ -133,6 +137,15 @@ impl Check<'_> {
         }
         pass
     }
+}
+
+/// The file of the same folder that may have been meant.
+fn neighbour(full: &Path) -> Option<String> {
+    let name = full.file_name()?.to_str()?;
+    let folder = full.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let there = std::fs::read_dir(folder).ok()?.flatten().filter(|entry| entry.path().is_file());
+    let names: Vec<String> = there.filter_map(|entry| entry.file_name().into_string().ok()).collect();
+    nearest(name, names.iter().map(String::as_str)).map(str::to_owned)
 }
 
 #[cfg(test)]

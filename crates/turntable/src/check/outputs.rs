@@ -1,5 +1,7 @@
 //! The names of what is made, and what it is like.
 
+use std::collections::BTreeSet;
+use std::ops::Bound;
 use std::path::{Component, Path};
 
 use groom_formats::Format;
@@ -13,7 +15,7 @@ const OWN: [&str; 3] = ["manifest.jsonl", "report.json", "report.html"];
 
 impl Check<'_> {
     pub(super) fn outputs(&mut self, pipeline: &Pipeline) {
-        let mut seen: Vec<&Path> = Vec::new();
+        let mut seen: BTreeSet<&Path> = BTreeSet::new();
         for (i, path) in pipeline.convert.iter().enumerate() {
             let key = format!("convert.{i}");
             self.output(&key, path, &mut seen);
@@ -38,20 +40,24 @@ impl Check<'_> {
         }
     }
 
-    fn output<'p>(&mut self, key: &str, path: &'p Path, seen: &mut Vec<&'p Path>) {
+    fn output<'p>(&mut self, key: &str, path: &'p Path, seen: &mut BTreeSet<&'p Path>) {
         let shown = path.display();
         // An output that climbs out of its folder would overwrite what the pipeline does not own.
         let inside = path.components().all(|c| matches!(c, Component::Normal(_)));
         if !inside || path.as_os_str().is_empty() {
-            self.fault(key, format!("`{shown}` must be a path inside the output folder"));
+            return self.fault(key, format!("`{shown}` must be a path inside the output folder"));
         }
         if path.starts_with("frames") || OWN.iter().any(|own| path == Path::new(own)) {
             self.fault(key, format!("`{shown}` is a place of the program's own"));
         }
-        if seen.contains(&path) {
+        let after = (Bound::Excluded(path), Bound::Unbounded);
+        let is_above = seen.range::<Path, _>(after).next().is_some_and(|next| next.starts_with(path));
+        if is_above || path.ancestors().skip(1).any(|above| seen.contains(above)) {
+            self.fault(key, format!("`{shown}` and another output are a file and its folder"));
+        }
+        if !seen.insert(path) {
             self.fault(key, format!("`{shown}` is made twice"));
         }
-        seen.push(path);
     }
 
     fn sheet(&mut self, sheet: &Sheet, pipeline: &Pipeline) {

@@ -57,6 +57,18 @@ fn contradictions_and_escapes_are_refused() {
         ("convert: [/out.txt]\n", "inside the output folder"),
         ("convert: [out.xyz]\n", "no ending that can be written (.hair"),
         ("convert: [a.txt, a.txt]\n", "made twice"),
+        (
+            "convert: [a.txt, b.txt, a.txt/c.txt]\n",
+            "convert.2: `a.txt/c.txt` and another output are a file and its",
+        ),
+        (
+            "convert: [a.txt/c.txt, b.txt, a.txt]\n",
+            "convert.2: `a.txt` and another output are a file and its folder",
+        ),
+        (
+            "material: {texture: {file: none.png}}\n",
+            "turn.yaml:4:28: material.texture.file: none.png: No such file",
+        ),
         ("sheet: {file: sheet.jpg}\n", "ends in .png"),
         ("turntable: {frames: 0}\n", "1..=9999"),
         ("turntable: {degrees: 361}\n", "-360..360"),
@@ -140,4 +152,22 @@ fn strands_are_bound_in_ways_that_agree() {
             _ => assert!(all.len() == 1 && all[0].contains(words), "{bind}: {all:?}"),
         }
     }
+}
+
+#[test]
+fn a_file_that_is_not_there_is_told_with_the_one_that_may_be_meant() {
+    let folder = tempfile::tempdir().unwrap();
+    for name in ["curly.hair", "sky.hdr"] {
+        std::fs::write(folder.path().join(name), "").unwrap();
+    }
+    std::fs::create_dir(folder.path().join("curlz.hair")).unwrap();
+    let at = |name: &str| folder.path().join(name).display().to_string();
+    let all = found(&format!(
+        "version: 1\ngroom: {{file: '{}'}}\nlights: {{environment: {{file: '{}'}}}}\n",
+        at("curlx.hair"),
+        at("mountain.hdr"),
+    ));
+    assert_eq!(all.len(), 2, "{all:#?}");
+    assert!(all[0].ends_with(", did you mean `curly.hair`?"), "{all:#?}");
+    assert!(all[1].contains("mountain.hdr") && !all[1].contains("did you mean"), "{all:#?}");
 }

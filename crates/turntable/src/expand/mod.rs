@@ -1,5 +1,7 @@
 //! From a pipeline file to what is rendered: every variant a whole pipeline.
 
+mod axis;
+mod exclude;
 mod matrix;
 mod told;
 mod variant;

@@ -19,6 +19,9 @@ const INPUTS: [&str; 7] = [
     "mesh.file",
 ];
 
+/// More of what only checking finds is not told of one variant.
+const MOST_FAULTS: usize = 200;
+
 /// What reading a variant came to.
 pub(super) struct Read {
     /// The pipeline, if there is nothing wrong with it.
@@ -41,7 +44,7 @@ pub(super) fn read(document: Document, file: &Path) -> Result<Read, Vec<Fault>> 
         let found = check::faults(pipeline, base).into_iter();
         // What was left out, or is lacking for that, is told already.
         let new = found.filter(|(key, _)| !left_out.iter().any(|out| within(out, key) || within(key, out)));
-        faults.extend(new.map(|(key, message)| document.fault(&key, message)));
+        faults.extend(new.take(MOST_FAULTS).map(|(key, message)| document.fault(&key, message)));
     }
     let pipeline = value.filter(|_| faults.is_empty());
     Ok(Read { pipeline, faults, used })

@@ -58,6 +58,7 @@ fn the_bounds_an_editor_knows_are_those_the_program_holds_to() {
             "groom.sample.length" | "groom.sample.lean" | "groom.sample.curl" | "groom.sample.clump" => {
                 "groom.sample.style=fur"
             }
+            "material.groom.redness" => "material.groom.melanin=0.5",
             "material.nodes" => "material.field=far",
             "material.redness" | "material.variation.redness" => "material.melanin=0.5",
             "material.variation.hue" => "material.color=[0.5, 0.4, 0.3]",
