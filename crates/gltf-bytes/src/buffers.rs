@@ -96,7 +96,7 @@ fn place_of(buffer: &Buffer<'_>) -> String {
 }
 
 /// `None` for the container's chunk.
-fn address<'a>(buffer: &Buffer<'a>) -> Option<&'a str> {
+pub(crate) fn address<'a>(buffer: &Buffer<'a>) -> Option<&'a str> {
     match buffer.source() {
         Source::Bin => None,
         Source::Uri(uri) => Some(uri),

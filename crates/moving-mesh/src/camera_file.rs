@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::{DMat3, DMat4, DVec3, DVec4};
 
 use crate::error::Fault;
-use crate::{AnimationChoice, MeshError, gltf_file, usd_file};
+use crate::{AnimationChoice, CameraChoice, MeshError, gltf_file, usd_file};
 
 /// How [`CameraFile::open`] reads a file.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -15,19 +15,6 @@ pub struct CameraOptions {
     /// Which of the file's animations moves it (glTF; a stage holds one). [`AnimationChoice::First`] is the first
     /// that moves this camera: exporters write an animation an object.
     pub animation: AnimationChoice,
-}
-
-/// One of a file's cameras.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
-pub enum CameraChoice {
-    /// The first of the file.
-    #[default]
-    First,
-    /// The first of this name: as [`CameraFile::names`] has it; in glTF also the camera's own beside its node's,
-    /// in USD also the last name of its path.
-    Name(String),
-    /// By number, counted from 0.
-    Index(usize),
 }
 
 /// A perspective camera of a glTF file or a USD stage, at any time.
@@ -203,47 +190,6 @@ fn rigid(world: &DMat4) -> Option<DMat4> {
     sound.then(|| DMat4::from_cols(column(right), column(back.cross(right)), column(back), place))
 }
 
-impl CameraChoice {
-    /// Its number among those there are; each may have two names.
-    pub(crate) fn among(
-        &self,
-        names: &[String],
-        also: impl Fn(usize) -> Option<String>,
-    ) -> Result<usize, Fault> {
-        let found = match self {
-            CameraChoice::First => (!names.is_empty()).then_some(0),
-            CameraChoice::Index(index) => Some(*index).filter(|&index| index < names.len()),
-            CameraChoice::Name(name) => {
-                let by_other = || (0..names.len()).find(|&i| also(i).as_deref() == Some(name));
-                names.iter().position(|n| n == name).or_else(by_other)
-            }
-        };
-        found.ok_or_else(|| {
-            let asked = match self {
-                CameraChoice::First => String::new(),
-                CameraChoice::Index(index) => format!(" number {index}"),
-                CameraChoice::Name(name) => format!(" {name:?}"),
-            };
-            Fault::NoCamera { asked, known: listed(names) }
-        })
-    }
-}
-
-/// Names, with their numbers.
-fn listed(names: &[String]) -> String {
-    /// More than these help nobody.
-    const MOST: usize = 20;
-    if names.is_empty() {
-        return "none".to_owned();
-    }
-    let mut words: Vec<String> =
-        names.iter().take(MOST).enumerate().map(|(i, n)| format!("{i} {n:?}")).collect();
-    if names.len() > MOST {
-        words.push(format!("{} more", names.len() - MOST));
-    }
-    words.join(", ")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -261,22 +207,5 @@ mod tests {
             assert_eq!(rigid(&DMat4::from_scale(flat)), None, "{flat}");
         }
         assert_eq!(rigid(&DMat4::from_translation(DVec3::NAN)), None);
-    }
-
-    #[test]
-    fn a_choice_finds_by_either_name_or_tells_what_there_is() {
-        let names: Vec<String> = ["/A/Cam", "/B/Cam", "/B/Side"].map(str::to_owned).to_vec();
-        let last = |i: usize| names[i].rsplit('/').next().map(str::to_owned);
-        let among = |choice: CameraChoice| choice.among(&names, last);
-        assert_eq!(among(CameraChoice::First).unwrap(), 0);
-        assert_eq!(among(CameraChoice::Name("Side".into())).unwrap(), 2);
-        assert_eq!(among(CameraChoice::Name("Cam".into())).unwrap(), 0);
-        assert_eq!(among(CameraChoice::Name("/B/Cam".into())).unwrap(), 1);
-        let told = |choice: CameraChoice| among(choice).unwrap_err().in_file("s.usda".as_ref()).to_string();
-        let known = r#"it has 0 "/A/Cam", 1 "/B/Cam", 2 "/B/Side""#;
-        assert_eq!(told(CameraChoice::Name("Sid".into())), format!("s.usda: no camera \"Sid\"; {known}"));
-        assert_eq!(told(CameraChoice::Index(3)), format!("s.usda: no camera number 3; {known}"));
-        let none = CameraChoice::First.among(&[], |_| None).unwrap_err().in_file("s.usda".as_ref());
-        assert_eq!(none.to_string(), "s.usda: no camera; it has none");
     }
 }

@@ -20,6 +20,7 @@
 //! light.
 
 mod budget;
+mod camera_choice;
 mod camera_file;
 mod choice;
 mod error;
@@ -34,16 +35,19 @@ mod pose;
 mod recent;
 mod shape;
 mod skeleton;
+mod sources;
 mod texture;
 mod triangle_mesh;
 mod usd_file;
 
-pub use camera_file::{CameraChoice, CameraFile, CameraOptions, CameraPose};
+pub use camera_choice::CameraChoice;
+pub use camera_file::{CameraFile, CameraOptions, CameraPose};
 pub use error::MeshError;
 pub use moving_mesh::MovingMesh;
 pub use options::{Animation, AnimationChoice, MeshOptions, RestPose};
 pub use part::Part;
 pub use pose::Pose;
 pub use skeleton::{Joint, Skeleton};
+pub use sources::sources;
 pub use texture::TextureImage;
 pub use triangle_mesh::TriangleMesh;

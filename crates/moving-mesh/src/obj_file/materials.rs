@@ -43,7 +43,7 @@ pub(super) fn look(model: &Model, materials: &[Material], path: &Path) -> Look {
     }
 }
 
-fn inside(folder: &Path, name: &Path) -> Option<PathBuf> {
+pub(super) fn inside(folder: &Path, name: &Path) -> Option<PathBuf> {
     let stays = name.components().all(|c| matches!(c, Component::Normal(_) | Component::CurDir));
     let is_file = name.components().any(|c| matches!(c, Component::Normal(_)));
     (stays && is_file).then(|| folder.join(name))

@@ -4,6 +4,7 @@ mod frames;
 mod materials;
 mod sequence;
 mod single;
+mod sources;
 
 use std::fs::File;
 use std::io::{BufRead, BufReader};
@@ -15,14 +16,16 @@ use crate::MeshOptions;
 use crate::error::Fault;
 use crate::loaded::Loaded;
 pub(crate) use sequence::Sequence;
+pub(crate) use sources::sources;
 
 /// Reads an OBJ file, or the sequence that a name with `#` in the place of digits stands for.
 pub(crate) fn read(path: &Path, options: &MeshOptions) -> Result<Loaded, Fault> {
-    let is_pattern = path.file_name().is_some_and(|name| name.to_string_lossy().contains('#'));
-    if is_pattern && !path.exists() {
-        return sequence::read(path, options);
-    }
-    single::read(path)
+    if is_sequence(path) { sequence::read(path, options) } else { single::read(path) }
+}
+
+/// Whether a name stands for many files.
+fn is_sequence(path: &Path) -> bool {
+    path.file_name().is_some_and(|name| name.to_string_lossy().contains('#')) && !path.exists()
 }
 
 /// Models and materials of a file; `single_index` gives a vertex to every combination of indices.

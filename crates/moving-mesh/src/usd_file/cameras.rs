@@ -22,6 +22,8 @@ const VERTICAL_APERTURE: f64 = 15.2908;
 pub(crate) struct UsdCamera {
     layer: Layer<Vec<u8>>,
     place: Place,
+    /// Whether samples count, be it one that lies over what stands without them.
+    is_animated: bool,
     /// In seconds; none where nothing moves it.
     time_range: Option<(f64, f64)>,
     time_codes_per_second: f64,
@@ -36,13 +38,15 @@ pub(crate) fn read_camera(path: &Path, options: &CameraOptions) -> Result<Read, 
     let last = |index: usize| names.get(index)?.rsplit('/').next().map(str::to_owned);
     let chosen = match options.camera.among(&names, last) {
         // It may be in what is pulled in.
-        Err(Fault::NoCamera { .. }) if found.composed => return Err(composed()),
+        Err(Fault::NoCamera { asked, .. }) if found.composed => {
+            return Err(composed(format!("a camera{asked} that comes")));
+        }
         chosen => chosen?,
     };
     let place = found.cameras.swap_remove(chosen);
     // What pulls in could say more about it, or about the prims it hangs below.
     if found.layered || place.chain(&layer).iter().any(|prim| super::stage::pulls_in(prim)) {
-        return Err(composed());
+        return Err(composed(format!("the camera {}, to which there may be added", place.path)));
     }
     let number = |name| positive(&layer, name);
     let rate = number("timeCodesPerSecond").or_else(|| number("framesPerSecond"));
@@ -51,19 +55,25 @@ pub(crate) fn read_camera(path: &Path, options: &CameraOptions) -> Result<Read, 
     if layer.metadata("upAxis").and_then(Value::text) == Some("Z") {
         axes *= DMat4::from_rotation_x(-std::f64::consts::FRAC_PI_2);
     }
-    let time_range = match options.animation {
-        AnimationChoice::None => None,
-        _ => range(&times(&place.chain(&layer)), rate),
+    let is_animated = options.animation != AnimationChoice::None;
+    let time_range = is_animated.then(|| range(&times(&place.chain(&layer)), rate)).flatten();
+    let camera = UsdCamera {
+        layer,
+        place,
+        is_animated,
+        time_range,
+        time_codes_per_second: rate,
+        metres_from_stage: axes,
     };
-    let camera = UsdCamera { layer, place, time_range, time_codes_per_second: rate, metres_from_stage: axes };
     camera.check()?;
     Ok(Read { names, chosen, track: Track::Usd(Box::new(camera)) })
 }
 
-fn composed() -> Fault {
+fn composed(what: String) -> Fault {
     Fault::Unsupported {
-        what: "a camera that comes by composition (references, sublayers, payloads)".to_owned(),
-        remedy: "flatten the stage first (usdcat --flatten), or name the layer that holds the camera",
+        what: format!("{what} by composition (references, sublayers, payloads)"),
+        remedy: "flatten the stage first (usdcat --flatten, or stage.Export in Python), or name the layer that holds \
+                 the camera",
     }
 }
 
@@ -92,7 +102,7 @@ impl UsdCamera {
     }
 
     pub(crate) fn at(&self, seconds: f64) -> Result<CameraPose, Fault> {
-        let time = self.time_range.map(|_| seconds * self.time_codes_per_second);
+        let time = self.is_animated.then_some(seconds * self.time_codes_per_second);
         let chain = self.place.chain(&self.layer);
         let world = self.metres_from_stage * world(&self.layer, &chain, time)?;
         let number = |name, fallback| self.number(name, fallback, time);

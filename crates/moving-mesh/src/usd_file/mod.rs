@@ -26,6 +26,7 @@ mod looks;
 mod mesh;
 mod polygons;
 mod primvar;
+mod sources;
 mod stage;
 mod subsets;
 mod vertices;
@@ -43,6 +44,7 @@ use crate::shape::{Look, Shape};
 use crate::{Animation, AnimationChoice, MeshOptions, Pose};
 pub(crate) use cameras::{UsdCamera, read_camera};
 use mesh::Mesh;
+pub(crate) use sources::sources;
 use stage::{Found, Place};
 
 /// Metres a unit has in a stage that does not say.

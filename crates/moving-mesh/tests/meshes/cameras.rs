@@ -185,6 +185,25 @@ fn a_usd_camera_is_in_metres_with_y_up() {
 }
 
 #[test]
+fn one_sample_lies_over_what_stands_without_it() {
+    let place = "double3 xformOp:translate = (0, 0, 0)\n double3 xformOp:translate.timeSamples = { 5: (0, 0, 300) }\n \
+        uniform token[] xformOpOrder = [\"xformOp:translate\"]\n float focalLength = 50\n \
+        float focalLength.timeSamples = { 5: 25 }";
+    let still = stage(place).replace("0: (0, 0, 0), 20: (0, 0, 200)", "0: (0, 0, 0)");
+    let open = |animation| {
+        let options = CameraOptions { animation, ..CameraOptions::default() };
+        open_with("a.usda", still.as_bytes(), &options).unwrap()
+    };
+    let sampled = open(AnimationChoice::First);
+    for time in [0.0, 0.5, 9.0] {
+        let pose = sampled.at(time).unwrap();
+        assert!((pose.position() - DVec3::Y * 3.0).length() < 1e-12, "{time}: {pose:?}");
+        assert!((pose.vertical_fov - 2.0 * (15.2908_f64 / 50.0).atan()).abs() < 1e-12, "{time}: {pose:?}");
+    }
+    assert_eq!(open(AnimationChoice::None).at(0.5).unwrap().position(), DVec3::ZERO);
+}
+
+#[test]
 fn usd_cameras_that_cannot_be_shown_are_refused() {
     let is_unsupported = |members| matches!(usd(members), Err(MeshError::Unsupported { .. }));
     assert!(is_unsupported("token projection = \"orthographic\""));
@@ -208,6 +227,7 @@ fn what_composition_could_change_is_not_guessed() {
     assert!(with(&elsewhere, named("Cam")).is_ok());
     let told = with(&elsewhere, named("Other")).unwrap_err();
     assert!(matches!(told, MeshError::Unsupported { .. }), "{told}");
+    assert!(told.to_string().contains("a camera \"Other\" that comes by composition"), "{told}");
     let below = stage("").replace("def Xform \"Rig\"", "def Xform \"Rig\" (references = @rig.usda@)");
     assert!(matches!(with(&below, named("Cam")), Err(MeshError::Unsupported { .. })));
     assert!(with(&below, named("Other")).is_ok());

@@ -7,6 +7,7 @@ mod cameras;
 mod gltf_files;
 mod gltf_motion;
 mod obj;
+mod sources;
 mod support;
 mod usd;
 mod usd_skel;
