@@ -3,6 +3,8 @@
 use std::fmt;
 use std::path::Path;
 
+use groom::Groom;
+
 /// A file format that holds strands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 #[non_exhaustive]
@@ -186,6 +188,17 @@ impl Format {
     pub fn can_write(self) -> bool {
         let facts = self.facts();
         facts.built && facts.writes
+    }
+
+    /// Whether the file that `groom` was read from says how large its unit is.
+    #[must_use]
+    pub fn says_unit(self, groom: &Groom) -> bool {
+        match self {
+            Format::Usda | Format::Usdc | Format::Usdz | Format::Gltf | Format::Glb => true,
+            // Only Alembic files of ours say it; 1 is what a reader takes where nothing is said.
+            Format::Alembic => groom.meters_per_unit != 1.0,
+            _ => false,
+        }
     }
 
     /// Whether the cargo feature of this format is on.

@@ -1,14 +1,14 @@
 //! Strands bound to a mesh, at any frame of it.
 
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use groom::Groom;
 use groom_binding::{
-    Beyond, BindBy, BindOptions, BindReport, Binding, Carrier, CarryMode, CarryOptions, Moved, Stencil,
-    Surface,
+    Beyond, BindBy, BindOptions, BindReport, Binding, Carrier, CarryMode, CarryOptions, Surface,
 };
-use hair_render::{Blur, Motion, Movement};
+use hair_render::{Blur, Motion};
 use moving_mesh::Pose;
 
+use crate::way::Way;
 use crate::{Exposure, FilmedMesh, MovingSceneError};
 
 /// Half of the roots farther off than this part of the mesh are not meant so.
@@ -17,9 +17,6 @@ const FAR_ROOTS: f64 = 0.1;
 /// A character farther off than so many of its sizes has an origin of its own: one step of a 32-bit number there is a
 /// part of its size that shows.
 const FAR_CHARACTER: f64 = 16.0;
-
-/// Frames before a picture at which strands look for the last frame their triangle had, where it has collapsed.
-const RUN_UP: f64 = 240.0;
 
 /// How strands are bound and carried.
 #[derive(Clone, Copy, Debug, Default)]
@@ -49,7 +46,7 @@ pub struct BoundGroom {
 /// Strands at a frame.
 #[derive(Debug)]
 pub struct Carried {
-    /// The strands in the mesh's unit and axes, relative to `origin`.
+    /// The strands in the mesh's unit and axes, relative to `origin`; where `motion` moves them, as at one of its keys.
     pub groom: Groom,
     /// What positions are relative to: 0 but for a character far away.
     pub origin: DVec3,
@@ -120,7 +117,8 @@ impl BoundGroom {
         let mut carrier = Carrier::new(&self.groom, &self.binding, Surface::of(mesh.mesh()), options)?;
         let moves = mesh.mesh().moves() && !exposure.shutter.is_instant();
         let blur = if moves { self.blur(exposure) } else { Blur::Off };
-        let way = Way { bound: self, mesh, exposure, rate, frame };
+        let teleport = self.bindings.teleport;
+        let way = Way { groom: &self.groom, teleport, mesh, exposure, rate, frame };
         let (positions, motion, jumped) = match blur {
             Blur::Off => (way.positions(&mut carrier, &[frame])?.remove(0), Motion::STILL, false),
             Blur::Positions => way.through_positions(&mut carrier)?,
@@ -129,133 +127,6 @@ impl BoundGroom {
         let mut groom = self.groom.clone();
         groom.positions_mut().copy_from_slice(&positions);
         Ok(Carried { groom, origin, motion, jumped })
-    }
-}
-
-/// Strands on their way through one picture.
-struct Way<'a> {
-    bound: &'a BoundGroom,
-    mesh: &'a FilmedMesh,
-    exposure: &'a Exposure,
-    rate: f64,
-    frame: f64,
-}
-
-impl Way<'_> {
-    fn pose(&self, time: f64) -> Result<Pose, MovingSceneError> {
-        Ok(self.mesh.mesh().pose(self.mesh.seconds(time, self.rate))?)
-    }
-
-    /// The points at some times, in frames and rising. Strands on a triangle that has collapsed keep the last frame it
-    /// had in the animation, whichever pictures were made before this one.
-    fn positions(
-        &self,
-        carrier: &mut Carrier<'_>,
-        times: &[f64],
-    ) -> Result<Vec<Vec<Vec3>>, MovingSceneError> {
-        let go = |carrier: &mut Carrier<'_>| -> Result<(Vec<Vec<Vec3>>, bool), MovingSceneError> {
-            let (mut all, mut held) = (Vec::with_capacity(times.len()), false);
-            for &time in times {
-                let mut points = Vec::new();
-                held |= carrier.positions(&self.pose(time)?, &mut points)?.held > 0;
-                all.push(points);
-            }
-            Ok((all, held))
-        };
-        carrier.reset();
-        let (all, held) = go(carrier)?;
-        if !held {
-            return Ok(all);
-        }
-        self.run_up(carrier, times)?;
-        Ok(go(carrier)?.0)
-    }
-
-    /// Shows the carrier the frames of the animation before the first of some times.
-    fn run_up(&self, carrier: &mut Carrier<'_>, times: &[f64]) -> Result<(), MovingSceneError> {
-        carrier.reset();
-        let (Some(&first), Some((start, _))) = (times.first(), self.mesh.frames(self.rate)) else {
-            return Ok(());
-        };
-        let mut unused = Vec::new();
-        let mut time = start.floor().max((first - RUN_UP).floor());
-        while time < first {
-            carrier.positions(&self.pose(time)?, &mut unused)?;
-            time += 1.0;
-        }
-        Ok(())
-    }
-
-    /// Positions at the keys of the shutter. What jumps between two of them stands where it is at the frame.
-    fn through_positions(
-        &self,
-        carrier: &mut Carrier<'_>,
-    ) -> Result<(Vec<Vec3>, Motion, bool), MovingSceneError> {
-        let times = self.mesh.key_times(self.frame, self.exposure)?;
-        let mut keys = self.positions(carrier, &times)?;
-        let jumping = self.jumping(&keys, &times);
-        let middle = if jumping.is_empty() {
-            keys.get(keys.len() / 2).cloned().unwrap_or_default()
-        } else {
-            let own = self.positions(carrier, &[self.frame])?.remove(0);
-            for strand in &jumping {
-                let range = self.bound.groom.strand_range(*strand);
-                for key in &mut keys {
-                    key[range.clone()].copy_from_slice(&own[range.clone()]);
-                }
-            }
-            own
-        };
-        Ok((middle, Motion::keys(keys)?, !jumping.is_empty()))
-    }
-
-    /// Strands whose root jumps between two keys.
-    fn jumping(&self, keys: &[Vec<Vec3>], times: &[f64]) -> Vec<usize> {
-        let Some(teleport) = self.bound.bindings.teleport else { return Vec::new() };
-        let groom = &self.bound.groom;
-        let jumps = |strand: &usize| {
-            let range = groom.strand_range(*strand);
-            !range.is_empty()
-                && keys.windows(2).zip(times.windows(2)).any(|(keys, times)| {
-                    let way = keys[0][range.start].as_dvec3().distance(keys[1][range.start].as_dvec3());
-                    way > teleport * (times[1] - times[0])
-                })
-        };
-        (0..groom.strand_count()).filter(jumps).collect()
-    }
-
-    /// Velocities at the frame, and accelerations where they are asked for.
-    fn by_rates(
-        &self,
-        carrier: &mut Carrier<'_>,
-        blur: Blur,
-    ) -> Result<(Vec<Vec3>, Motion, bool), MovingSceneError> {
-        let shutter = &self.exposure.shutter;
-        let reach = self.mesh.seconds(0.5 * (shutter.close() - shutter.open()), self.rate);
-        let seconds = self.mesh.seconds(self.frame, self.rate);
-        let stencil = Stencil::new(seconds, reach, self.mesh.mesh().time_range())?;
-        let [before, at, after] = stencil.times().map(|time| self.mesh.mesh().pose(time));
-        let (poses, mut moved) = ([before?, at?, after?], Moved::default());
-        let accelerations = blur == Blur::Accelerations;
-        let mut go =
-            |carrier: &mut Carrier<'_>| carrier.moved(&stencil, poses.each_ref(), accelerations, &mut moved);
-        let mut report = go(carrier)?;
-        if report.held > 0 {
-            self.run_up(carrier, &[self.frame])?;
-            report = go(carrier)?;
-        }
-        let Moved { positions, velocities, accelerations } = moved;
-        let movement = Movement {
-            positions: &positions,
-            velocities: Some(&velocities),
-            accelerations: accelerations.as_deref(),
-            other_times: false,
-        };
-        let rate = 1.0 / self.mesh.seconds(1.0, self.rate);
-        let nowhere = |_| Ok::<_, MovingSceneError>(Vec::new());
-        let keys = self.exposure.keys(blur);
-        let motion = movement.motion(blur, shutter, (self.frame, rate), keys, nowhere)?;
-        Ok((positions, motion, report.teleported > 0))
     }
 }
 

@@ -150,7 +150,9 @@ impl FilmedMesh {
     }
 }
 
-fn is_stage(path: &Path) -> bool {
+/// Whether a name is that of a USD stage: its frames are time codes of its own, and it says its unit and its up axis.
+#[must_use]
+pub fn is_stage(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
     ending.is_some_and(|ending| ending.starts_with("usd"))
 }

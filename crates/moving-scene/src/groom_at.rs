@@ -101,6 +101,17 @@ impl GroomAt {
         exposure.keys(self.blur(exposure))
     }
 
+    /// The points at another frame, as those of [`GroomAt::loaded`]; the same where the file has one frame.
+    ///
+    /// # Errors
+    /// [`MovingSceneError::Format`] for what the file is to blame for.
+    pub fn positions_at(&self, frame: f64) -> Result<Vec<Vec3>, MovingSceneError> {
+        match self.motion.as_ref().filter(|_| self.has.times > 1) {
+            Some(motion) => Ok(motion.at(frame)?.positions),
+            None => Ok(self.loaded.groom.positions().to_vec()),
+        }
+    }
+
     /// How the strands move while the shutter is open, at `rate` frames a second where the file knows no better.
     ///
     /// # Errors

@@ -20,13 +20,12 @@ mod groom_at;
 mod outside;
 #[cfg(test)]
 mod tests;
-mod unit;
+mod way;
 
 pub use base_colors::by_base_color;
 pub use bound_groom::{Bindings, BoundGroom, Carried};
 pub use error::MovingSceneError;
 pub use exposure::{Exposure, USUAL_RATE};
-pub use filmed_mesh::{FilmedMesh, MeshAsked, animation_named};
+pub use filmed_mesh::{FilmedMesh, MeshAsked, animation_named, is_stage};
 pub use groom_at::GroomAt;
 pub use outside::outside;
-pub use unit::says_unit;

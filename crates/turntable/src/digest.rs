@@ -66,6 +66,11 @@ impl Ingredients {
         Ok(self.digest(&input(path)?))
     }
 
+    /// Adds the bytes of some files, in their order.
+    pub fn files(self, paths: &[PathBuf]) -> Result<Self, TurntableError> {
+        paths.iter().try_fold(self, |digest, path| digest.file(path))
+    }
+
     pub fn finish(self) -> Digest {
         Digest(self.0.finalize().to_hex()[..32].to_owned())
     }

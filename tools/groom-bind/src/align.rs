@@ -11,7 +11,7 @@ use crate::args::Aligning;
 pub(crate) fn align(groom: &mut Groom, format: Format, space: Space, args: &Aligning) -> Result<()> {
     let alignment = Alignment {
         up: args.up.map(Into::into),
-        unit_is_said: args.meters_per_unit.is_some() || says_unit(format, groom),
+        unit_is_said: args.meters_per_unit.is_some() || format.says_unit(groom),
         scale: args.scale,
         translate: args.translate,
         matrix: args.matrix,
@@ -20,16 +20,6 @@ pub(crate) fn align(groom: &mut Groom, format: Format, space: Space, args: &Alig
         BindingError::Alignment { .. } => anyhow::anyhow!("--{error}"),
         other => other.into(),
     })
-}
-
-/// Whether a file of this format says how large its unit is.
-fn says_unit(format: Format, groom: &Groom) -> bool {
-    match format {
-        Format::Usda | Format::Usdc | Format::Usdz | Format::Gltf | Format::Glb => true,
-        // Only Alembic files of ours say it; 1 is what a reader takes where nothing is said.
-        Format::Alembic => groom.meters_per_unit != 1.0,
-        _ => false,
-    }
 }
 
 #[cfg(test)]

@@ -19,13 +19,13 @@ pub struct CameraSettings {
     /// Angle above the horizon at the last frame; `elevation` throughout when absent.
     #[schemars(range(min = -90.0, max = 90.0))]
     pub elevation_to: Option<f64>,
-    /// Distance to the target in metres; far enough for everything to fit when absent.
+    /// Distance to the target in metres; far enough for everything that is seen in any picture to fit when absent.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub distance: Option<f64>,
     /// Factor on the size in the picture when the distance is fitted.
     #[schemars(extend("exclusiveMinimum" = 0))]
     pub zoom: f64,
-    /// What is looked at, in world metres, Y up; the middle of the scene when absent.
+    /// What is looked at, in world metres, Y up; the middle of the scene, and of its motion, when absent.
     pub target: Option<[f64; 3]>,
     /// Where the camera stands, in world metres, Y up: it looks at the target from there in every frame.
     pub position: Option<[f64; 3]>,

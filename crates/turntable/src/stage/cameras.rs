@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::{DMat3, DVec3};
 use hair_render::{Bounds, Camera, MovingCamera};
 use moving_mesh::{CameraChoice, CameraFile, CameraOptions};
-use moving_scene::{Exposure, animation_named, outside};
+use moving_scene::{Exposure, animation_named, is_stage, outside};
 
 use super::cornell::Room;
 use super::views;
@@ -51,8 +51,7 @@ impl Filming {
             });
             let animation = animation_named(asked.animation.as_deref());
             let camera = CameraFile::open(&path, &CameraOptions { camera, animation })?;
-            let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-            let own_rate = ending.is_some_and(|ending| ending.starts_with("usd"));
+            let own_rate = is_stage(&path);
             Ok::<_, TurntableError>(Filmed { path, camera, own_rate })
         });
         Ok(Filming { settings, turn, aspect, file: file.transpose()? })

@@ -91,7 +91,7 @@ impl Hair {
                     .file
                     .as_deref()
                     .and_then(groom_formats::Format::from_path)
-                    .is_some_and(|format| moving_scene::says_unit(format, &groom)),
+                    .is_some_and(|format| format.says_unit(&groom)),
             scale: bind.scale,
             translate: bind.translate.map(DVec3::from_array),
             matrix: bind.matrix.map(|rows| DMat4::from_cols_array_2d(&rows).transpose()),

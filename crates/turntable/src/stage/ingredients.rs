@@ -4,23 +4,25 @@ use std::path::{Path, PathBuf};
 
 use moving_scene::GroomAt;
 
-use super::{material, sources, views};
+use super::{framing, material, sources, views};
 use crate::TurntableError;
 use crate::digest::{Digest, Ingredients};
 use crate::schema::{BlurBy, Pipeline, Style, Turning};
 
 /// Every file that a pipeline reads.
 pub(crate) fn files(pipeline: &Pipeline, base: &Path) -> Result<Vec<PathBuf>, TurntableError> {
-    let named = [
-        pipeline.groom.file.as_ref(),
-        pipeline.lights.environment.as_ref().and_then(|e| e.file.as_ref()),
-        pipeline.camera.file.as_ref().map(|file| &file.path),
-        pipeline.comp.plate.as_ref(),
-    ];
+    let environment = pipeline.lights.environment.as_ref().and_then(|e| e.file.as_ref());
+    let named = [environment, pipeline.comp.plate.as_ref()];
     let mut files: Vec<PathBuf> = named.into_iter().flatten().map(|input| base.join(input)).collect();
     files.extend(pipeline.material.files(base)?);
+    if let Some(file) = &pipeline.groom.file {
+        files.extend(sources::of_groom(file, base)?);
+    }
+    if let Some(camera) = &pipeline.camera.file {
+        files.extend(sources::of_camera(camera, base)?);
+    }
     if let Some(mesh) = &pipeline.mesh {
-        files.extend(sources::of_mesh(&base.join(&mesh.file))?);
+        files.extend(sources::of_mesh(mesh, base)?);
     }
     Ok(files)
 }
@@ -31,14 +33,12 @@ pub(crate) fn groom(pipeline: &Pipeline, base: &Path) -> Result<Digest, Turntabl
     let mut digest = Ingredients::of("groom");
     if let Some(file) = &source.file {
         let ending = file.extension().unwrap_or_default().to_string_lossy().to_ascii_lowercase();
-        digest = digest.word(&ending).file(&base.join(file))?;
+        digest = digest.word(&ending).files(&sources::of_groom(file, base)?)?;
     }
     if let (Some(sample), Some(mesh)) = (&source.sample, &pipeline.mesh)
         && sample.style == Style::Fur
     {
-        for file in sources::of_mesh(&base.join(&mesh.file))? {
-            digest = digest.file(&file)?;
-        }
+        digest = digest.files(&sources::of_mesh(mesh, base)?)?;
         let rest = pipeline.bind.as_ref().map(|bind| bind.rest);
         digest = digest.settings(&(mesh.up, mesh.meters_per_unit, rest));
     }
@@ -50,9 +50,7 @@ pub(crate) fn groom(pipeline: &Pipeline, base: &Path) -> Result<Digest, Turntabl
 pub(crate) fn scene(pipeline: &Pipeline, groom: &Digest, base: &Path) -> Result<Digest, TurntableError> {
     let mut digest = material::added(Ingredients::of("scene").digest(groom), &pipeline.material, base)?;
     if let Some(mesh) = &pipeline.mesh {
-        for file in sources::of_mesh(&base.join(&mesh.file))? {
-            digest = digest.file(&file)?;
-        }
+        digest = digest.files(&sources::of_mesh(mesh, base)?)?;
         digest = digest.settings(&(mesh.up, mesh.meters_per_unit, mesh.albedo, mesh.base_colors));
     }
     if pipeline.bind.is_some() {
@@ -74,10 +72,10 @@ pub(crate) fn scene(pipeline: &Pipeline, groom: &Digest, base: &Path) -> Result<
         digest = digest.settings(cornell);
     }
     if let Some(file) = &pipeline.camera.file {
-        digest = digest.file(&base.join(&file.path))?;
+        digest = digest.files(&sources::of_camera(file, base)?)?;
     }
-    if pipeline.camera.blur {
-        // The scene holds the shutter that the camera is seen through.
+    if pipeline.camera.blur || pipeline.camera.file.is_some() {
+        // The scene holds the shutter that the camera is seen through, and the rate says when a frame is.
         digest = digest.settings(&exposure(pipeline));
     }
     Ok(digest.finish())
@@ -92,6 +90,10 @@ pub(crate) fn frame(pipeline: &Pipeline, scene: &Digest, number: u32) -> Digest 
         let step = pipeline.motion.as_ref().map_or(1.0, |motion| motion.step);
         let first = pipeline.motion.as_ref().map(|motion| motion.first);
         digest = digest.settings(&(first, step * f64::from(number - 1)));
+    }
+    if may_move(pipeline) && framing::is_by_contents(pipeline) {
+        // All that is shown is framed.
+        digest = digest.settings(&framing::length(pipeline));
     }
     digest.settings(&pipeline.turntable.turn).finish()
 }

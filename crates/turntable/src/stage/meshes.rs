@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use glam::{Affine3A, Mat3, Vec3};
 use hair_render::MeshObject;
 use moving_mesh::{RestPose, TriangleMesh};
-use moving_scene::{Exposure, FilmedMesh, MeshAsked, animation_named, by_base_color};
+use moving_scene::{Exposure, FilmedMesh, MeshAsked, animation_named, by_base_color, is_stage};
 
 use super::hair::is_z;
 use crate::TurntableError;
@@ -132,10 +132,4 @@ fn still(source: &MeshSource, path: &Path) -> Result<MeshObject, TurntableError>
         mesh.transform(&Affine3A::from_mat3(turn * unit));
     }
     Ok(MeshObject::still(mesh, Vec3::from_array(source.albedo)))
-}
-
-/// A stage says its unit and its up axis.
-fn is_stage(path: &Path) -> bool {
-    let ending = path.extension().map(|ending| ending.to_string_lossy().to_ascii_lowercase());
-    ending.is_some_and(|ending| ending.starts_with("usd"))
 }

@@ -5,12 +5,13 @@
 //! | strands | a file or sample, still, animated or bound to the mesh | `hair`, `prepare` |
 //! | a mesh | a file, still or animated | `meshes` |
 //! | light | environment, rectangles, a Cornell box | `lights`, `cornell` |
-//! | the camera | its circle, a place, a scene file | `cameras`, `views` |
+//! | the camera | its circle, a place, a scene file | `cameras`, `views`, `framing` |
 //!
 //! What is the same in all frames is loaded and built once, and kept for the next variant that wants it (`store`).
 
 mod cameras;
 mod cornell;
+mod framing;
 mod fur;
 mod hair;
 pub(crate) mod ingredients;
@@ -30,9 +31,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use groom::Groom;
-use hair_render::{
-    AreaLight, Blur, Bounds, Environment, HairMaterial, MovingCamera, Scene, SceneDescription,
-};
+use hair_render::{Blur, Bounds, HairMaterial, MovingCamera, Scene, SceneDescription};
 use moving_scene::{Exposure, GroomAt};
 
 pub(crate) use settings::{render_settings, tone_mapping};
@@ -41,8 +40,9 @@ pub(crate) use store::Store;
 use crate::schema::{Pipeline, Turning};
 use crate::{Event, Reporter, TurntableError};
 use cameras::{Filming, Taken};
-use cornell::Room;
+use framing::{Framing, Moving};
 use hair::{Hair, Opening};
+use lights::Shining;
 use meshes::{Body, When};
 
 /// A time that misses a frame by this part of one is at it.
@@ -70,8 +70,7 @@ pub(crate) struct Stage<'a> {
     hair: Hair,
     body: Option<Body>,
     material: HairMaterial,
-    environment: Option<Environment>,
-    areas: Vec<AreaLight>,
+    lights: Shining,
     filming: Filming,
     /// The frame of the animation that the first picture shows; none where nothing is animated.
     first: Option<f64>,
@@ -79,13 +78,6 @@ pub(crate) struct Stage<'a> {
     framing: Option<Framing>,
     built: Option<Arc<Scene>>,
     told: BTreeSet<String>,
-}
-
-/// What the camera frames in all pictures: what is there in the first.
-#[derive(Clone, Copy, Debug)]
-struct Framing {
-    bounds: Option<Bounds>,
-    room: Option<Room>,
 }
 
 /// One frame, ready to be rendered.
@@ -113,7 +105,7 @@ impl<'a> Stage<'a> {
         let known = pipeline.motion.as_ref().and_then(|motion| motion.first.or(opening.frame));
         let when = When {
             moves: pipeline.motion.is_some(),
-            frames: known.map(|first| shown(pipeline, first)),
+            frames: known.map(|first| framing::shown(pipeline, first)),
             keys: opening.keys.unwrap_or_else(|| exposure.keys(exposure.blur.unwrap_or(Blur::Positions))),
             groom_rate: opening.frame_rate,
         };
@@ -142,8 +134,7 @@ impl<'a> Stage<'a> {
             hair,
             body,
             material: HairMaterial { fibre, ..HairMaterial::default() },
-            environment: lights::environment(&pipeline.lights, base)?,
-            areas: lights::areas(&pipeline.lights)?,
+            lights: Shining::load(&pipeline.lights, base)?,
             filming,
             first,
             rate,
@@ -160,31 +151,28 @@ impl<'a> Stage<'a> {
     /// The one scene of all frames.
     fn build_once(&mut self, store: &mut Store) -> Result<(), TurntableError> {
         let description = self.describe(1)?;
-        let room = self.frame_all(&description).room;
+        let framing = Framing::of(&self.pipeline, description.bounds());
+        self.framing = Some(framing);
         let groom = ingredients::groom(&self.pipeline, &self.base)?;
         let digest = ingredients::scene(&self.pipeline, &groom, &self.base)?;
-        let description = self.lit(description, room, 0.0);
+        let description = self.lights.on(description, framing.room, 0.0);
         self.built = Some(store.scene(digest, || Scene::build(description))?);
         Ok(())
     }
 
     /// Frame `number`, from 1.
     pub fn view(&mut self, number: u32) -> Result<View<'_>, TurntableError> {
-        if self.framing.is_none() {
-            let first = self.describe(1)?;
-            self.frame_all(&first);
-        }
-        let Framing { bounds, room } = self.framing.unwrap_or(Framing { bounds: None, room: None });
+        let Framing { bounds, room } = self.framing()?;
         let turn = &self.pipeline.turntable;
         let azimuth = match turn.turn {
             Turning::Camera => 0.0,
             Turning::Groom => views::azimuth(turn, number).to_radians(),
         };
         let turns = turn.turn == Turning::Groom;
-        let only_sky_turns = self.areas.is_empty() && room.is_none();
-        let mut built = self.built.take().filter(|_| !self.moves() && (!turns || only_sky_turns));
+        let stays = !self.moves() && (!turns || self.lights.is_sky_alone());
+        let mut built = self.built.take().filter(|_| stays);
         if let (true, Some(scene)) = (turns, &mut built) {
-            let base = self.environment.as_ref().map_or(0.0, Environment::rotation);
+            let base = self.lights.sky_rotation();
             match Arc::get_mut(scene) {
                 Some(scene) => scene.turn_environment(base + azimuth as f32),
                 None => built = None,
@@ -194,7 +182,7 @@ impl<'a> Stage<'a> {
             Some(scene) => scene,
             None => {
                 let description = self.describe(number)?;
-                Arc::new(Scene::build(self.lit(description, room, azimuth))?)
+                Arc::new(Scene::build(self.lights.on(description, room, azimuth))?)
             }
         };
         let taken = Taken { number, frame: self.frame(number), rate: self.rate, bounds, room };
@@ -241,26 +229,22 @@ impl<'a> Stage<'a> {
         Ok(SceneDescription { hair: vec![strands.object], meshes, shutter, ..SceneDescription::default() })
     }
 
-    /// Takes what the first frame shows for what all frames show.
-    fn frame_all(&mut self, first: &SceneDescription) -> Framing {
-        let bounds = first.bounds();
-        let room = self.pipeline.lights.cornell.as_ref().map(|settings| Room::about(bounds, settings));
-        *self.framing.insert(Framing { bounds, room })
-    }
-
-    /// The scene with its lights, and the walls of its room, at `azimuth` radians.
-    ///
-    /// A groom that turns before a camera that stands is the same picture as a camera that goes round and takes the
-    /// lights with it.
-    fn lit(&self, mut description: SceneDescription, room: Option<Room>, azimuth: f64) -> SceneDescription {
-        let turn = |light: &AreaLight| if azimuth == 0.0 { *light } else { lights::turned(*light, azimuth) };
-        description.environment = self.environment.clone().map(|e| e.rotated(azimuth as f32));
-        description.lights = self.areas.iter().map(turn).collect();
-        if let (Some(room), Some(settings)) = (room, &self.pipeline.lights.cornell) {
-            description.meshes.extend(room.walls(azimuth));
-            description.lights.push(room.light(settings, azimuth));
+    /// What all pictures frame; worked out for the first of them that is wanted.
+    fn framing(&mut self) -> Result<Framing, TurntableError> {
+        if let Some(framing) = self.framing {
+            return Ok(framing);
         }
-        description
+        let mut bounds = None;
+        if framing::is_by_contents(&self.pipeline) {
+            bounds = self.describe(1)?.bounds();
+            if let Some(first) = self.first.filter(|_| self.moves()) {
+                let (hair, body, exposure) = (&self.hair, self.body.as_ref(), &self.exposure);
+                let moving = Moving { hair, body, exposure, rate: self.rate };
+                let others = moving.bounds(framing::shown(&self.pipeline, first))?;
+                bounds = [bounds, others].into_iter().flatten().reduce(Bounds::union);
+            }
+        }
+        Ok(*self.framing.insert(Framing::of(&self.pipeline, bounds)))
     }
 
     /// Says something, once of all frames it holds for.
@@ -290,11 +274,4 @@ fn strands(
     }
     let groom = groom(pipeline, base, reporter, store)?;
     Ok((Hair::Still(groom), Opening::default()))
-}
-
-/// First and last frame of the animation that is shown.
-fn shown(pipeline: &Pipeline, first: f64) -> (f64, f64) {
-    let step = pipeline.motion.as_ref().map_or(1.0, |motion| motion.step);
-    let last = first + step * f64::from(pipeline.turntable.frames.saturating_sub(1));
-    (first.min(last), first.max(last))
 }

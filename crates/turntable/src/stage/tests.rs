@@ -91,7 +91,7 @@ fn bound_hair_goes_with_its_mesh_and_a_frame_is_the_same_whatever_was_before() {
     let mut stage = set(&moving, &heard).unwrap();
     let all: Vec<_> = (1..=3).map(|number| seen(&mut stage, number)).collect();
     assert!(all[0].0 != all[1].0 && all[0].1 == Some(2), "{all:?}");
-    assert!(all.iter().all(|(.., camera)| *camera == all[0].2), "the camera frames what the first shows");
+    assert!(all.iter().all(|(.., camera)| *camera == all[0].2), "one framing for all");
     let mut alone = set(&moving, &heard).unwrap();
     assert_eq!(seen(&mut alone, 3), all[2]);
     let mut sharp = set(&with("{first: 2, step: 5, blur: off}"), &heard).unwrap();
@@ -106,6 +106,72 @@ fn bound_hair_goes_with_its_mesh_and_a_frame_is_the_same_whatever_was_before() {
         words.len() == 1 && words[0].contains("nodding_head.glb: frame 30 is outside 0 to 24"),
         "{words:?}"
     );
+}
+
+/// A triangle that goes along x, 10 metres in 4 frames.
+const PASSING: &str = "#usda 1.0\n(\n    metersPerUnit = 1\n    timeCodesPerSecond = 24\n    upAxis = \"Y\"\n)\n\
+    def Mesh \"M\"\n{\n    int[] faceVertexCounts = [3]\n    int[] faceVertexIndices = [0, 1, 2]\n    \
+    point3f[] points = [(0, 0, 0), (0, 0, 0.1), (0.1, 0, 0)]\n    \
+    double3 xformOp:translate.timeSamples = { 1: (0, 0, 0), 5: (10, 0, 0) }\n    \
+    uniform token[] xformOpOrder = [\"xformOp:translate\"]\n}\n";
+
+#[test]
+fn the_camera_sees_all_of_a_motion_in_all_pictures() {
+    let heard = Heard::default();
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("passing.usda");
+    std::fs::write(&file, PASSING).unwrap();
+    let cameras = |more: &str| -> Vec<hair_render::Camera> {
+        let mesh = format!("mesh: {{file: '{}'}}\nmotion: {{blur: off, step: 2}}\n", file.display());
+        let turn = "turntable: {frames: 3, degrees: 0}\n";
+        let pipeline = pipeline(&format!("{STILL}{mesh}{turn}{more}"));
+        let mut stage = set(&pipeline, &heard).unwrap();
+        (1..=3).map(|number| stage.view(number).unwrap().camera.at(0.5)).collect()
+    };
+    let framed = cameras("");
+    assert!(framed.iter().all(|camera| *camera == framed[0]));
+    let (position, target) = (framed[0].position(), framed[0].target());
+    assert!((target.x - 5.0).abs() < 0.2, "{target}");
+    let half = 0.5 * framed[0].vertical_fov();
+    for x in [0.0, 5.0, 10.0] {
+        let angle = (glam::DVec3::X * x - position).angle_between(target - position);
+        assert!(angle < half, "{x}: {angle}");
+    }
+    let placed = cameras("camera: {target: [1, 0, 0], distance: 3}\n");
+    assert_eq!(placed[2].target(), glam::DVec3::X);
+}
+
+/// Frames are stale when any file is another that they were made from, and the camera's rate counts.
+#[test]
+fn what_a_file_names_counts_as_it_does() {
+    let folder = tempfile::tempdir().unwrap();
+    let write = |name: &str, text: &str| std::fs::write(folder.path().join(name), text).unwrap();
+    let document = r#"{"asset":{"version":"2.0"},"buffers":[{"byteLength":1,"uri":"my%20mesh.bin"}],
+        "images":[{"uri":"skin.png"}]}"#;
+    write("a.gltf", document);
+    write("my mesh.bin", "a");
+    write("skin.png", "a");
+    let file = folder.path().join("a.gltf").display().to_string();
+    let digest = |more: &str| {
+        let pipeline = pipeline(&format!("{STILL}{}", more.replace("FILE", &file)));
+        let groom = ingredients::groom(&pipeline, Path::new("")).unwrap();
+        ingredients::scene(&pipeline, &groom, Path::new("")).unwrap()
+    };
+    let (plain, colored, camera) = (
+        "mesh: {file: 'FILE'}\n",
+        "mesh: {file: 'FILE', base_colors: true}\n",
+        "camera: {file: {path: 'FILE'}}\n",
+    );
+    let all = || [plain, colored, camera].map(digest);
+    let before = all();
+    write("skin.png", "b");
+    let painted = all();
+    assert_eq!([0, 1, 2].map(|i| before[i] == painted[i]), [true, false, true]);
+    write("my mesh.bin", "b");
+    let rebuilt = all();
+    assert_eq!([0, 1, 2].map(|i| painted[i] == rebuilt[i]), [false; 3]);
+    let rate = |fps: u32| digest(&format!("{camera}motion: {{fps: {fps}}}\n"));
+    assert_ne!(rate(24), rate(25));
 }
 
 #[test]
@@ -129,6 +195,16 @@ fn frames_depend_on_the_animation_where_something_moves() {
     let mut half = moving.clone();
     (half.turntable.frames, half.motion.as_mut().unwrap().step) = (2, 4.0);
     assert_eq!(digests(&half)[1], digests(&moving)[2]);
+    // More of the motion is framed otherwise, unless the camera has its place.
+    let longer = |text: &str, frames: u32| {
+        let mut pipeline = moving.clone();
+        pipeline.camera = self::pipeline(&format!("{STILL}{text}")).camera;
+        pipeline.turntable.frames = frames;
+        digests(&pipeline)
+    };
+    assert_ne!(longer("", 4)[0], all[0]);
+    let placed = "camera: {distance: 1, target: [0, 0, 0]}\n";
+    assert_eq!(longer(placed, 4), longer(placed, 3));
 }
 
 #[test]
