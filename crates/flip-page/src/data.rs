@@ -1,5 +1,7 @@
 //! What the page is given, as its script reads it.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 /// How light becomes what is shown, as for the PNGs.
@@ -43,12 +45,14 @@ pub struct Axis {
 }
 
 /// A variant: a setting of every axis.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
 pub struct Variant {
     /// Its name; empty where there is but one.
     pub id: String,
     /// The name of its setting on every axis, in their order.
     pub settings: Vec<String>,
+    /// How its passes are weighed before anybody touches anything; 1 where nothing is said.
+    pub weights: BTreeMap<String, f32>,
     /// Everything it was made with: keys and values.
     pub parameters: Vec<(String, String)>,
 }
@@ -56,11 +60,10 @@ pub struct Variant {
 /// What the script reads.
 #[derive(Serialize)]
 pub(crate) struct Data<'a> {
-    pub tone: &'a Tone,
+    pub tones: &'a [Tone],
     pub fps: f64,
     pub axes: &'a [Axis],
     pub passes: Vec<&'a String>,
-    pub weights: &'a std::collections::BTreeMap<String, f32>,
     pub variants: Vec<Shown<'a>>,
 }
 
@@ -69,6 +72,8 @@ pub(crate) struct Data<'a> {
 pub(crate) struct Shown<'a> {
     #[serde(flatten)]
     pub variant: &'a Variant,
+    /// Which of the tones is its own.
+    pub tone: usize,
     pub frames: Vec<FrameShown<'a>>,
 }
 

@@ -17,6 +17,7 @@ const SCRIPT: &str = concat!(
     include_str!("page/light.js"),
     include_str!("page/state.js"),
     include_str!("page/stage.js"),
+    include_str!("page/compare.js"),
     include_str!("page/controls.js"),
     include_str!("page/tables.js"),
     include_str!("page/main.js"),
@@ -67,7 +68,7 @@ fn push_header(out: &mut String, page: &Page, title: &str) {
         out,
         "<header><h1>{title}</h1><span class=\"soft\">{variants}{frames} frames</span></header>"
     );
-    if let Some(first) = page.variants.iter().flat_map(|(_, frames)| frames).next() {
+    if let Some(first) = page.variants.iter().flat_map(|filled| &filled.frames).next() {
         let _ = writeln!(
             out,
             "<noscript><main><p>Frames are turned and passes weighed by a script, which does not run here. The \
@@ -90,7 +91,7 @@ const LOOK: &str = r#"<div class="look">
 </section>
 <aside aria-label="Controls">
 <div class="variants" id="variants"><h2>Variant</h2><div class="menu" id="menu0"></div>
-<div><button type="button" id="compare" aria-pressed="false">Compare side by side</button></div>
+<div class="views" role="group" aria-label="Compare with another variant"><span class="soft">Compare</span><button type="button" data-view="beside" aria-pressed="false">Side by side</button><button type="button" data-view="wipe" aria-pressed="false">Wipe</button><button type="button" data-view="difference" aria-pressed="false">Difference</button></div>
 <div class="menu" id="menu1" hidden="hidden"></div></div>
 <div id="weigh"><h2>Passes</h2><div id="passes"></div>
 <div class="pass exposure"><label for="stops">stops</label><input type="range" id="stops" min="-4" max="4" step="0.1"/><output for="stops" id="said-stops"></output></div>
@@ -103,7 +104,7 @@ const LOOK: &str = r#"<div class="look">
 const PARAMETERS: &str = r#"<section><h2>Parameters</h2><p><label><input type="checkbox" id="only-differing"/> only what differs between variants</label></p><div class="scroll"><table id="parameters"></table></div></section>
 "#;
 
-const KEYS: &str = r#"<section><h2>Keys</h2><dl><dt><kbd>&#8592;</kbd> <kbd>&#8594;</kbd></dt><dd>frame by frame; drag on the picture does the same</dd><dt><kbd>Home</kbd> <kbd>End</kbd></dt><dd>first and last frame</dd><dt><kbd>Space</kbd></dt><dd>play and pause</dd><dt><kbd>1</kbd> ... <kbd>9</kbd></dt><dd>one pass alone; <kbd>0</kbd> the beauty</dd><dt><kbd>c</kbd></dt><dd>two variants side by side; <kbd>x</kbd> swaps them</dd></dl></section>
+const KEYS: &str = r#"<section><h2>Keys</h2><dl><dt><kbd>&#8592;</kbd> <kbd>&#8594;</kbd></dt><dd>frame by frame; drag on the picture does the same</dd><dt><kbd>Home</kbd> <kbd>End</kbd></dt><dd>first and last frame</dd><dt><kbd>Space</kbd></dt><dd>play and pause</dd><dt><kbd>1</kbd> ... <kbd>9</kbd></dt><dd>one pass alone; <kbd>0</kbd> the beauty</dd><dt><kbd>c</kbd></dt><dd>two variants side by side; <kbd>x</kbd> swaps them</dd><dt><kbd>w</kbd></dt><dd>one left, the other right of a line, which the pointer drags; <kbd>[</kbd> <kbd>]</kbd> do too</dd><dt><kbd>d</kbd></dt><dd>how far apart they are, channel by channel as they are shown, four times as bright</dd></dl></section>
 "#;
 
 /// Plots of error against seconds, one for each metric.

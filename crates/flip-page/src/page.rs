@@ -1,6 +1,5 @@
 //! The page as it is filled.
 
-use std::collections::BTreeMap;
 use std::path::Path;
 
 use error_report::Report;
@@ -45,25 +44,33 @@ pub struct Bytes {
 #[derive(Debug)]
 pub struct Page {
     pub(crate) title: String,
-    pub(crate) tone: Tone,
     pub(crate) passes: Vec<String>,
-    pub(crate) variants: Vec<(Variant, Vec<Frame>)>,
+    pub(crate) variants: Vec<Filled>,
     pub(crate) axes: Vec<Axis>,
     pub(crate) report: Option<Report>,
     pub(crate) left_out: Vec<(String, String)>,
     pub(crate) about: Vec<(String, String)>,
     pub(crate) bytes: Bytes,
-    weights: BTreeMap<String, f32>,
+    /// Each once.
+    tones: Vec<Tone>,
     fps: f64,
+}
+
+/// A variant as far as it is filled.
+#[derive(Debug)]
+pub(crate) struct Filled {
+    pub variant: Variant,
+    pub frames: Vec<Frame>,
+    /// Its place among the tones.
+    tone: usize,
 }
 
 impl Page {
     /// A page without pictures, whose frames have these passes.
     #[must_use]
-    pub fn new(title: impl Into<String>, tone: Tone, passes: &[&str]) -> Page {
+    pub fn new(title: impl Into<String>, passes: &[&str]) -> Page {
         Page {
             title: title.into(),
-            tone,
             passes: passes.iter().map(|&pass| pass.to_owned()).collect(),
             variants: Vec::new(),
             axes: Vec::new(),
@@ -71,7 +78,7 @@ impl Page {
             left_out: Vec::new(),
             about: Vec::new(),
             bytes: Bytes::default(),
-            weights: BTreeMap::new(),
+            tones: Vec::new(),
             fps: 12.0,
         }
     }
@@ -80,13 +87,6 @@ impl Page {
     #[must_use]
     pub fn with_axes(mut self, axes: Vec<Axis>) -> Page {
         self.axes = axes;
-        self
-    }
-
-    /// The page, whose passes are weighed like that before anybody touches anything; 1 where nothing is said.
-    #[must_use]
-    pub fn with_weights(mut self, weights: BTreeMap<String, f32>) -> Page {
-        self.weights = weights;
         self
     }
 
@@ -118,9 +118,14 @@ impl Page {
         self
     }
 
-    /// Adds a variant and returns its place.
-    pub fn variant(&mut self, variant: Variant) -> usize {
-        self.variants.push((variant, Vec::new()));
+    /// Adds a variant whose light is shown by `tone`, and returns its place.
+    pub fn variant(&mut self, variant: Variant, tone: Tone) -> usize {
+        let known = self.tones.iter().position(|known| *known == tone);
+        let tone = known.unwrap_or_else(|| {
+            self.tones.push(tone);
+            self.tones.len() - 1
+        });
+        self.variants.push(Filled { variant, frames: Vec::new(), tone });
         self.variants.len() - 1
     }
 
@@ -130,7 +135,7 @@ impl Page {
     /// [`PageError::Variant`], [`PageError::Size`] or [`PageError::Encode`].
     pub fn shot(&mut self, variant: usize, shot: &Shot) -> Result<(), PageError> {
         let count = self.variants.len();
-        let Some((_, frames)) = self.variants.get_mut(variant) else {
+        let Some(Filled { frames, .. }) = self.variants.get_mut(variant) else {
             return Err(PageError::Variant { found: variant, count });
         };
         let &Shot { number, width, height, shown, alpha, layers, .. } = shot;
@@ -139,7 +144,7 @@ impl Page {
             let fault = PageError::Size { frame: number, what, found, expected, width, height };
             if found as u64 == expected && pixels > 0 { Ok(()) } else { Err(fault) }
         };
-        check("the picture", shown.len(), 3 * pixels)?;
+        check("the picture", shown.len(), pixels.saturating_mul(3))?;
         check("coverage", alpha.len(), pixels)?;
         for layer in layers.into_iter().flatten() {
             check("a pass", layer.len(), pixels)?;
@@ -181,23 +186,23 @@ impl Page {
         // A pass that is black in every frame is no pass to flip to.
         let is_lit = |pass: &usize| self.frames().any(|frame| frame.layer(*pass).is_some());
         let lit: Vec<usize> = (0..self.passes.len()).filter(is_lit).collect();
-        let variants = self.variants.iter().map(|(variant, frames)| Shown {
+        let variants = self.variants.iter().map(|Filled { variant, frames, tone }| Shown {
             variant,
+            tone: *tone,
             frames: frames.iter().map(|frame| frame.shown(&lit)).collect(),
         });
         let data = Data {
-            tone: &self.tone,
+            tones: &self.tones,
             fps: self.fps,
             axes: &self.axes,
             passes: lit.iter().filter_map(|&pass| self.passes.get(pass)).collect(),
-            weights: &self.weights,
             variants: variants.collect(),
         };
         Ok(html::write(self, &serde_json::to_string(&data)?))
     }
 
     fn frames(&self) -> impl Iterator<Item = &Frame> {
-        self.variants.iter().flat_map(|(_, frames)| frames)
+        self.variants.iter().flat_map(|filled| &filled.frames)
     }
 
     /// Writes the page, whole or not at all, and returns its size in bytes.
@@ -217,7 +222,7 @@ impl Plate {
     /// # Errors
     /// [`PageError::Size`] or [`PageError::Encode`].
     pub fn new(width: u32, height: u32, rgb: &[u8]) -> Result<Plate, PageError> {
-        let expected = 3 * u64::from(width) * u64::from(height);
+        let expected = (u64::from(width) * u64::from(height)).saturating_mul(3);
         if expected == 0 || rgb.len() as u64 != expected {
             let (frame, what, found) = (0, "the plate", rgb.len());
             return Err(PageError::Size { frame, what, found, expected, width, height });

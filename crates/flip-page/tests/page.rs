@@ -38,27 +38,33 @@ fn frame(variant: usize, number: u32) -> Frame {
     Frame { width: SIZE.0, height: SIZE.1, cutout: None, beauty, alpha, passes, report }
 }
 
-fn mapping(stops: f32) -> ToneMapping {
+/// Exposure of each variant.
+const EXPOSURES: [f32; 2] = [0.5, -0.25];
+/// What the second variant's TT is weighed by.
+const OWN_TT: f32 = 0.5;
+
+fn mapping(variant: usize, stops: f32) -> ToneMapping {
     ToneMapping {
-        exposure: 0.5 + stops,
+        exposure: EXPOSURES[variant] + stops,
         backdrop: Backdrop::Solid(Vec3::splat(BACKDROP)),
         ..Default::default()
     }
 }
 
-/// What `frame-comp` makes of it.
+/// What `frame-comp` makes of it; what `weights` does not say is as the variant has it.
 fn expected(variant: usize, number: u32, weights: &str, stops: f32) -> Preview {
-    let weights: Weights = weights.parse().unwrap();
+    let own = if variant == 1 && !weights.contains("TT=") { format!("TT={OWN_TT}") } else { String::new() };
+    let words: Vec<&str> = [weights, &own].into_iter().filter(|words| !words.is_empty()).collect();
+    let weights: Weights = words.join(",").parse().unwrap();
     let weighed = frame_comp::reweigh(&frame(variant, number), &weights).unwrap();
-    frame_comp::shown(&weighed, None, frame_comp::Fit::Fill, &mapping(stops))
+    frame_comp::shown(&weighed, None, frame_comp::Fit::Fill, &mapping(variant, stops))
 }
 
-/// Two variants of four frames, the last of which keeps no passes.
+/// Two variants of four frames, the last of which keeps no passes; the second is shown darker, and with less TT.
 fn page() -> Page {
-    let tone = Tone { exposure: 0.5, curve: Curve::Neutral, backdrop: [BACKDROP; 3], plate: None };
     let names = PASSES.map(Aov::name);
     let mut series = Series::cases(EVIL, "relative error", EVIL, 0.5);
-    let mut page = Page::new(EVIL, tone, &names)
+    let mut page = Page::new(EVIL, &names)
         .with_axes(vec![Axis { name: EVIL.into(), settings: vec!["smooth".into(), EVIL.into()] }])
         .with_left_out(vec![(EVIL.into(), EVIL.into())])
         .with_about(vec![("command".into(), EVIL.into())]);
@@ -68,11 +74,14 @@ fn page() -> Page {
             ("material.beta_m".to_owned(), format!("0.{index}")),
             (EVIL.to_owned(), EVIL.to_owned()),
         ];
-        let variant =
-            page.variant(Variant { id: setting.into(), settings: vec![setting.into()], parameters });
+        let exposure = EXPOSURES[index];
+        let tone = Tone { exposure, curve: Curve::Neutral, backdrop: [BACKDROP; 3], plate: None };
+        let weights = (index == 1).then(|| ("TT".to_owned(), OWN_TT)).into_iter().collect();
+        let settings = vec![setting.into()];
+        let variant = page.variant(Variant { id: setting.into(), settings, weights, parameters }, tone);
         for number in 1..=4 {
             let frame = frame(index, number);
-            let shown = frame_comp::shown(&frame, None, frame_comp::Fit::Fill, &mapping(0.0));
+            let shown = expected(index, number, "", 0.0);
             let rgb: Vec<u8> = shown.rgba.chunks(4).flat_map(|p| [p[0], p[1], p[2]]).collect();
             let layers: Vec<Vec<[f32; 3]>> =
                 frame.passes.iter().map(|(_, pixels)| pixels.iter().map(Vec3::to_array).collect()).collect();
@@ -220,6 +229,57 @@ fn the_page_shows_what_the_pngs_show_however_it_is_turned_and_weighed() {
 }
 
 #[test]
+fn two_variants_are_compared_by_a_wipe_and_by_their_difference() {
+    let folder = tempfile::tempdir().unwrap();
+    let html = folder.path().join("page.html");
+    page().write(&html).unwrap();
+    let eval = |script: &str| json!({ "eval": script });
+    let both = "[canvas0, canvas1].map(c=>[...c.getContext('2d').getImageData(0,0,c.width,c.height).data])";
+    let steps = json!([
+        { "key": "c" },
+        eval(both), // 0
+        { "key": "w" },
+        eval(PIXELS), // 1
+        { "drag": [0.5, 0.5, 0.25, 0.5], "on": "canvas0" },
+        eval(PIXELS), // 2
+        eval("[location.hash, side1.hidden, canvas0.dataset.shown]"), // 3
+        { "key": "d" },
+        eval(PIXELS), // 4
+        eval("[location.hash, caption0.textContent]"), // 5
+        { "key": "d" },
+        eval("[location.hash, side1.hidden]"), // 6
+    ]);
+    let Some(report) = driven(&html, folder.path(), &steps) else { return };
+    let result = &report["results"];
+    let (a, b) = (&result[0][0], &result[0][1]);
+    assert!(off(a, &expected(0, 1, "", 0.0)) <= 2 && off(b, &expected(1, 1, "", 0.0)) <= 2);
+    let values =
+        |of: &Value| -> Vec<i64> { of.as_array().unwrap().iter().map(|v| v.as_i64().unwrap()).collect() };
+    let (a, b) = (values(a), values(b));
+    let wiped = |of: &Value, cut: usize| {
+        for (index, value) in values(of).into_iter().enumerate() {
+            let column = index / 4 % SIZE.0 as usize;
+            let wanted = if column < cut { a[index] } else { b[index] };
+            assert!(value == wanted || column == cut, "column {column}, line {cut}: {value}, not {wanted}");
+        }
+    };
+    wiped(&result[1], SIZE.0 as usize / 2);
+    let hash = result[3][0].as_str().unwrap();
+    let cut = hash.split("cut=").nth(1).unwrap().split('&').next().unwrap().parse::<f64>().unwrap();
+    assert!((cut - 0.25).abs() < 0.02 && hash.contains("view=wipe"), "{hash}");
+    wiped(&result[2], (cut * f64::from(SIZE.0)).round() as usize);
+    assert_eq!((&result[3][1], &result[3][2]), (&json!(true), &json!("exact")));
+    for (index, value) in values(&result[4]).into_iter().enumerate() {
+        let apart = if index % 4 == 3 { 255 } else { (4 * (a[index] - b[index]).abs()).min(255) };
+        assert_eq!(value, apart, "{index}");
+    }
+    assert!(values(&result[4]).iter().any(|&v| v > 40 && v < 255), "they differ");
+    assert!(result[5][0].as_str().unwrap().contains("view=difference"));
+    assert!(result[5][1].as_str().unwrap().ends_with("\u{d7}  4"), "{}", result[5][1]);
+    assert!(!result[6][0].as_str().unwrap().contains("view=") && result[6][1] == json!(true));
+}
+
+#[test]
 fn an_address_opens_what_it_says() {
     let folder = tempfile::tempdir().unwrap();
     let html = folder.path().join("page.html");
@@ -249,11 +309,11 @@ fn the_same_page_has_the_same_bytes_and_no_raw_text() {
 #[test]
 fn pictures_of_the_wrong_size_are_refused() {
     let tone = Tone { exposure: 0.0, curve: Curve::Clip, backdrop: [0.0; 3], plate: None };
-    let mut page = Page::new("x", tone, &["R"]);
+    let mut page = Page::new("x", &["R"]);
     let shot =
         |shown, alpha| Shot { number: 7, facts: vec![], width: 1, height: 1, shown, alpha, layers: None };
     assert!(page.shot(0, &shot(&[0; 3], &[1.0])).unwrap_err().to_string().contains("the page has 0"));
-    let variant = page.variant(Variant::default());
+    let variant = page.variant(Variant::default(), tone);
     assert!(page.shot(variant, &shot(&[0; 3], &[1.0])).is_ok());
     let error = page.shot(variant, &shot(&[0; 4], &[1.0])).unwrap_err().to_string();
     assert!(error.contains("frame 7") && error.contains("expected 3"), "{error}");

@@ -78,7 +78,7 @@ function passControls() {
     host.append(element("div", { class: "pass" }, button(name, i), weight, said));
   });
   byId("reset").addEventListener("click", () => {
-    state.weights = data.passes.map((name) => one(data.weights[name]));
+    state.weights = data.passes.map(() => null);
     state.stops = 0;
     state.pass = null;
     changed();
@@ -94,7 +94,8 @@ function showPasses() {
     const own = button.dataset.pass === "beauty" ? null : Number(button.dataset.pass);
     button.setAttribute("aria-pressed", String(own === state.pass));
   }
-  state.weights.forEach((weight, i) => {
+  data.passes.forEach((_, i) => {
+    const weight = weightOf(data.variants[state.sides[0]], i);
     byId(`weight${i}`).value = weight;
     byId(`said${i}`).textContent = "\u00d7 " + weight.toFixed(2);
   });
@@ -110,23 +111,24 @@ function play(on) {
   byId("play").textContent = on ? "Pause" : "Play";
 }
 
-function compare(on) {
-  if (!on) state.sides[1] = null;
-  else if (state.sides[1] === null) state.sides[1] = (state.sides[0] + 1) % data.variants.length;
-  changed();
-}
-
 function pointers() {
   let start = null;
+  const isWiped = () => together() && state.view === "wipe";
   sides.forEach(({ canvas }, side) => {
+    const shareOf = (event) => {
+      const box = canvas.getBoundingClientRect();
+      return (event.clientX - box.left) / box.width;
+    };
     canvas.addEventListener("pointerdown", (event) => {
       canvas.setPointerCapture(event.pointerId);
       start = { x: event.clientX, frame: state.frame };
-      play(false);
+      if (isWiped()) setCut(shareOf(event));
+      else play(false);
     });
     canvas.addEventListener("pointermove", (event) => {
       byId("readout").textContent = readout(side, event);
       if (!start) return;
+      if (isWiped()) return setCut(shareOf(event));
       // Across the picture is once around.
       const share = (event.clientX - start.x) / canvas.getBoundingClientRect().width;
       setFrame(start.frame + Math.round(share * most()));
@@ -135,6 +137,8 @@ function pointers() {
     canvas.addEventListener("pointerleave", () => (byId("readout").textContent = ""));
   });
 }
+
+const VIEW_KEYS = { c: "beside", w: "wipe", d: "difference" };
 
 function keys() {
   document.addEventListener("keydown", (event) => {
@@ -145,7 +149,9 @@ function keys() {
     else if (event.key === "Home") setFrame(0);
     else if (event.key === "End") setFrame(most() - 1);
     else if (event.key === " " && !event.target.closest("button, summary")) play(playing === null);
-    else if (event.key === "c" && data.variants.length > 1) compare(state.sides[1] === null);
+    else if (event.key in VIEW_KEYS && data.variants.length > 1) compare(VIEW_KEYS[event.key]);
+    else if (event.key === "[") setCut(state.cut - 0.05);
+    else if (event.key === "]") setCut(state.cut + 0.05);
     else if (event.key === "x" && state.sides[1] !== null) state.sides.reverse(), changed();
     else if (event.key === "0") (state.pass = null), changed();
     else if (pass >= 1 && pass <= data.passes.length) (state.pass = pass - 1), changed();

@@ -6,9 +6,7 @@ function show() {
   frame.max = most() - 1;
   frame.value = state.frame;
   byId("said-frame").textContent = frames(0).length ? `${shot(0).number} / ${most()}` : "no frames";
-  byId("compare").setAttribute("aria-pressed", String(state.sides[1] !== null));
-  byId("menu1").hidden = state.sides[1] === null;
-  byId("stage").classList.toggle("two", state.sides[1] !== null);
+  showCompared();
   [0, 1].forEach(showMenus);
   showPasses();
   const wanted = state.sides.join();
@@ -18,6 +16,7 @@ function show() {
   }
   toAddress();
   const done = Promise.all([draw(0), draw(1)]);
+  if (together()) captionOfBoth();
   // For whoever drives the page: what was asked for last is on the screen.
   document.documentElement.dataset.busy = "true";
   const turn = sides.map((side) => side.turn).join();
@@ -38,7 +37,9 @@ byId("frame").addEventListener("input", (event) => {
   setFrame(Number(event.target.value));
 });
 byId("play").addEventListener("click", () => play(playing === null));
-byId("compare").addEventListener("click", () => compare(state.sides[1] === null));
+for (const button of document.querySelectorAll("[data-view]")) {
+  button.addEventListener("click", () => compare(button.dataset.view));
+}
 byId("only-differing").addEventListener("change", showParameters);
 byId("only-differing").parentElement.hidden = data.variants.length < 2;
 addEventListener("hashchange", () => {

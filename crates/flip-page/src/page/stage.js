@@ -1,12 +1,16 @@
-// The pictures: one canvas a side, the ready-made picture at once and the exact one as soon as it is unpacked.
+// The pictures: one canvas a side, the ready-made picture at once and the exact one as soon as it is unpacked. Where
+// both are put into one, each has a canvas apart from the page.
 
 const byId = (id) => document.getElementById(id);
 const sides = [0, 1].map((side) => ({
   figure: byId("side" + side),
   canvas: byId("canvas" + side),
   caption: byId("caption" + side),
+  apart: document.createElement("canvas"),
   turn: 0, // counts what was asked for, so that what comes late is not shown
+  drawn: 0, // what was last drawn of it
   shown: null, // parts of the picture that is shown exactly
+  label: "", // what it shows, in words
 }));
 
 // Frames unpacked lately.
@@ -34,8 +38,8 @@ function readyMade(frame) {
 }
 
 const plates = new Map();
-async function plateOf(frame) {
-  const { plate } = data.tone;
+async function plateOf(tone, frame) {
+  const { plate } = tone;
   if (!plate || plate.width !== frame.width || plate.height !== frame.height) return null;
   if (!plates.has(plate)) {
     plates.set(plate, pixelsOf(plate.png).then((bytes) => {
@@ -60,49 +64,58 @@ function sized(canvas, frame) {
 async function draw(side) {
   const place = sides[side];
   const turn = ++place.turn;
-  place.figure.hidden = state.sides[side] === null;
-  if (place.figure.hidden || !frames(side).length) return;
+  place.figure.hidden = state.sides[side] === null || (side === 1 && together());
+  if (state.sides[side] === null || !frames(side).length) return;
   const frame = shot(side);
-  const canvas = place.canvas;
+  const canvas = together() ? place.apart : place.canvas;
   caption(side, frame);
   const late = () => turn !== place.turn;
-  if (!frame.layers || isPlain()) {
+  const drawn = (parts) => {
+    place.shown = parts;
+    place.drawn = turn;
+    canvas.dataset.shown = parts ? "exact" : "ready-made";
+    combine();
+  };
+  if (!frame.layers || isPlain(side)) {
     const image = await readyMade(frame);
     if (late()) return;
     sized(canvas, frame).drawImage(image, 0, 0);
-    place.shown = null;
-    canvas.dataset.shown = "ready-made";
+    drawn(null);
   }
   if (!frame.layers) return;
-  const [parts, plate] = await Promise.all([partsOf(frame), plateOf(frame)]);
+  const tone = data.tones[data.variants[state.sides[side]].tone];
+  const weights = effective(side);
+  const [parts, plate] = await Promise.all([partsOf(frame), plateOf(tone, frame)]);
   if (late()) return;
-  const picture = develop(parts, effective(), data.tone, state.stops, plate);
+  const picture = develop(parts, weights, tone, state.stops, plate);
   sized(canvas, frame).putImageData(picture, 0, 0);
-  place.shown = parts;
-  canvas.dataset.shown = "exact";
+  drawn(parts);
 }
 
 function caption(side, frame) {
+  const place = sides[side];
   const variant = data.variants[state.sides[side]];
   const pass = state.pass === null ? "" : data.passes[state.pass];
   const facts = frame.facts.map(([, value]) => value);
-  const missing = (state.pass !== null || state.stops !== 0) && !frame.layers ? "no passes kept for this frame" : "";
+  const missing = !frame.layers && !isPlain(side) ? "no passes kept for this frame" : "";
   const words = [variant.id, "frame " + frame.number, ...facts, pass, missing];
-  sides[side].caption.textContent = words.filter(Boolean).join("  \u00b7  ");
+  place.caption.textContent = words.filter(Boolean).join("  \u00b7  ");
   const named = `${pass || "beauty"}, frame ${frame.number} of ${frames(side).length}`;
-  sides[side].canvas.setAttribute("aria-label", variant.id ? `${variant.id}: ${named}` : named);
+  place.label = variant.id ? `${variant.id}: ${named}` : named;
+  place.canvas.setAttribute("aria-label", place.label);
 }
 
 // Linear values under the pointer.
 function readout(side, event) {
-  const { canvas, shown } = sides[side];
-  const box = canvas.getBoundingClientRect();
-  const x = Math.floor(((event.clientX - box.left) / box.width) * canvas.width);
-  const y = Math.floor(((event.clientY - box.top) / box.height) * canvas.height);
-  if (!shown || x < 0 || y < 0 || x >= canvas.width || y >= canvas.height) return "";
+  const box = sides[side].canvas.getBoundingClientRect();
+  const [across, down] = [(event.clientX - box.left) / box.width, (event.clientY - box.top) / box.height];
+  const of = together() && state.view === "wipe" && across >= state.cut ? 1 : side;
+  const { shown } = sides[of];
+  if (!shown || across < 0 || down < 0 || across >= 1 || down >= 1) return "";
+  const [x, y] = [Math.floor(across * shown.width), Math.floor(down * shown.height)];
   const sum = [0, 0, 0];
-  light(shown, effective(), y * canvas.width + x, sum);
-  const alpha = coverage(shown.alpha, y * canvas.width + x);
+  light(shown, effective(of), y * shown.width + x, sum);
+  const alpha = coverage(shown.alpha, y * shown.width + x);
   const [r, g, b, a] = [...sum, alpha].map((v) => v.toPrecision(3));
   return `${x}, ${y}   R ${r}  G ${g}  B ${b}  A ${a}  (linear)`;
 }

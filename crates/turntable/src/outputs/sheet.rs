@@ -53,9 +53,7 @@ pub(super) fn make(step: &Step, finished: &Finished) -> Result<bool, TurntableEr
     let Some(Variant { pipeline, .. }) = finished.variants.first() else { return Ok(false) };
     let Some(settings) = &pipeline.sheet else { return Ok(false) };
     finished.reporter.event(&Event::Stage("making the contact sheet"));
-    let looks: Result<Vec<Look>, _> =
-        finished.variants.iter().map(|variant| Look::of(&variant.pipeline, finished.base)).collect();
-    let looks = looks?;
+    let looks = Look::all(finished.variants, finished.base)?;
     let backdrop = looks.first().map_or([0; 3], Look::backdrop);
     let count = finished.frames.len();
     // The pipeline's check keeps sheets far below what cannot be.
