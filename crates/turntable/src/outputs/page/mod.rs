@@ -128,7 +128,7 @@ impl Making<'_> {
             azimuth,
             rendered: false,
             spp: header.spp,
-            threads: u32::try_from(header.threads).unwrap_or(u32::MAX),
+            threads: header.threads,
             seconds: header.seconds,
             relative_error: header.relative_error,
         });
