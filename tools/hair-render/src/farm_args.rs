@@ -26,7 +26,8 @@ pub struct FarmArgs {
     #[arg(long, value_name = "SECONDS", value_parser = seconds)]
     pub snapshot: Option<Duration>,
     /// Show the picture so far in a running tev (https://github.com/Tom94/tev) as it comes
-    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = "127.0.0.1:14158")]
+    #[arg(long, value_name = "HOST:PORT", num_args = 0..=1, default_missing_value = "127.0.0.1:14158",
+        require_equals = true)]
     pub display_server: Option<String>,
     /// Draw the snapshots and the finished picture in the terminal
     #[arg(long)]
