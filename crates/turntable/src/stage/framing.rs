@@ -56,15 +56,9 @@ pub(super) struct Moving<'a> {
 }
 
 impl Moving<'_> {
-    /// The box about everything between two frames, and while the shutter is open at either.
+    /// The box about everything between two frames. The shutter does not count: a picture with blur and one without are
+    /// framed alike, and can be compared.
     pub fn bounds(&self, (first, last): (f64, f64)) -> Result<Option<Bounds>, TurntableError> {
-        let shutter = &self.exposure.shutter;
-        let [before, after] = if self.exposure.blurs() {
-            [shutter.open().min(0.0), shutter.close().max(0.0)]
-        } else {
-            [0.0; 2]
-        };
-        let (first, last) = (first + before, last + after);
         let sharp = Exposure { blur: Some(Blur::Off), ..self.exposure.clone() };
         let mut strands = Strands::of(self.hair)?;
         let mesh = self.body.and_then(Body::filmed).map(|filmed| &filmed.mesh);
